@@ -7,9 +7,11 @@
 //! the lengths kept, no tension is above its greatest value or breaking force, and if it meets the
 //! demands.
 
+mod at_rest;
 mod cables;
 mod demand;
 mod evaluation;
+mod exhaustive;
 mod file;
 mod front;
 mod goal;
@@ -57,13 +59,17 @@ pub struct Design {
     pub before: Option<f64>,
     /// Whether the robot as it is is held and meets all demands.
     pub feasible_before: bool,
-    /// Combinations of the choices, all of them evaluated; 1 without choices.
+    /// Combinations of the choices, all of them looked at; 1 without choices.
     pub configurations: usize,
     /// Starts of the local search in each of them; 0 where nothing has bounds.
     pub starts: usize,
     /// Searches, or configurations where nothing has bounds, that led to a robot that counts.
     pub feasible: usize,
-    /// Evaluations of a robot at all poses.
+    /// Configurations that were left as soon as a pose proved them worse than the two best ones: whether
+    /// they count is not known. Only of more than 1000.
+    #[serde(skip_serializing_if = "is_none")]
+    pub left: usize,
+    /// Evaluations of a robot at all poses, of configurations that are left at some of them.
     pub evaluations: usize,
     /// Why the first start leads to no robot that counts, where none does.
     pub reason: Option<String>,
@@ -158,6 +164,10 @@ pub struct ActiveDemand {
     pub per_percent: f64,
 }
 
+fn is_none(count: &usize) -> bool {
+    *count == 0
+}
+
 /// Values are the same where they differ by less than this share of the range between the bounds.
 const SAME_VALUE: f64 = 1e-4;
 /// The same of objectives, relative.
@@ -197,6 +207,7 @@ pub fn design(problem: &DesignProblem) -> Result<Design, AssessError> {
         configurations: searched.found.len() / each,
         starts,
         feasible: feasible().count(),
+        left: searched.left,
         evaluations: 1 + searched.evaluations,
         reason,
         best: best.transpose()?,

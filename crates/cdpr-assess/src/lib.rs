@@ -6,6 +6,7 @@
 //! | Where is the platform held, how far does a load deflect it, how stiff is it? | [`compute_workspace`] |
 //! | What can it carry at a pose, how far are the limits of tension? | [`capacity_at`] |
 //! | Where does it come to rest when a cable breaks, and do the others bear that? | [`safety_at`] |
+//! | Are its cables within their design resistance, by partial factors? | [`factored_cases`] |
 //! | Where does it rest in weather, and from which direction is wind worst? | [`winds`] |
 //! | Where do the exits go for the least deflection? | [`design`] |
 //! | What has to be given up of one objective for another? | [`front`] |
@@ -48,11 +49,18 @@ pub use robustness::{
     Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread, StartOffset,
     anchor_distance, protocols, run_robustness,
 };
+pub use safety::factored::{
+    FactoredCase, FactoredRest, FactoredSwing, Situation, Utilization, factored_cases, governing,
+};
+pub use safety::factors::{CaseFactors, PartialFactors};
 pub use safety::winds::{AnyWeather, DIRECTIONS, InWind, Winds, winds};
 pub use safety::{Breaks, Broken, BrokenRest, Safety, Swing, safety_at};
 pub use tilt::{Tilt, TiltTowards, tilt_at};
-pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};
+pub use tolerance::{
+    Limit, Limited, PricedCalibration, Reached, Tolerance, ToleranceBudget, tolerance_budget,
+};
 pub use vibration::{Compared, DrawnRobots, ratio_of_best};
+pub use workspace::breaks::AfterBreaks;
 pub use workspace::question::{Further, Shaking, TiltDirections, Way, Workspace};
 pub use workspace::results::{Dominant, HELD, Held, Recomputed, WorkspacePose};
 pub use workspace::row::WorkspaceRow;

@@ -6,6 +6,8 @@
 //! tensions exceed those of the rest, and with little damping it may pass a ridge and rest elsewhere: the
 //! motion without damping is followed if asked for.
 
+pub(crate) mod factored;
+pub(crate) mod factors;
 pub(crate) mod winds;
 
 use crate::inspection::is_below_floor;

@@ -11,8 +11,8 @@
 //! ```
 //!
 //! defines κ, which is constant for a linear model and hardly changes otherwise. A sample at the current s
-//! gives κ; κ and the limit give the admissible variance; this gives the cheapest s ([`allocate`]). A few
-//! rounds suffice. Independent draws then verify what the budget reaches.
+//! gives κ; κ and the limit give the admissible variance; this gives the cheapest s
+//! (`tolerance/purchase.rs`). A few rounds suffice. Independent draws then verify what the budget reaches.
 //!
 //! The weather of a study is drawn as it is: no money makes it calmer. With yw the quantile in the weather of
 //! robots without deviations, and the sum over all other tolerances,
@@ -23,13 +23,19 @@
 
 mod drawn;
 mod limit;
+mod market;
+mod purchase;
+mod rounds;
 mod verdict;
 
 use crate::error::AssessError;
-use cdpr_sensitivity::{Estimate, SensitivityError, allocate};
+use cdpr_sensitivity::{Estimate, SensitivityError};
 use cdpr_statics::{Load, StaticsError};
 use cdpr_study::{LinearLaw, Sampling, StudyError, explained, observe_rows};
 pub use limit::{Limit, Limited};
+use market::{Entries, Market};
+use purchase::Way;
+use rounds::Settled;
 use serde::Serialize;
 
 /// Which tolerances to tighten for a limit.
@@ -54,8 +60,13 @@ pub struct ToleranceBudget {
     pub now: Reached,
     /// Result of the tightened tolerances.
     pub tightened: Reached,
-    /// Sum of the costs, now and after tightening.
+    /// Sum of the costs, now and after tightening, calibrations included.
     pub cost: [f64; 2],
+    /// Whether the costs are the prices of the study.
+    #[serde(skip)]
+    pub priced: bool,
+    /// Calibrations that have a price.
+    pub calibrations: Vec<PricedCalibration>,
     /// Rounds of sampling until the factors settled.
     pub rounds: usize,
 }
@@ -73,11 +84,33 @@ pub struct Tolerance {
     pub halved_mm: f64,
     /// Factor of the tolerance, above 0; 1 if it may stay as it is.
     pub factor: f64,
-    /// Cost now; tightened, it is divided by the factor. Zero of the weather.
+    /// Cost as it is. Zero of the weather, and without a price.
     pub cost: f64,
+    /// Cost with the factor.
+    pub cost_then: f64,
+    /// By what it has its factor: "grade", "calibration", or "least", the narrowest that is for sale; `None`
+    /// where it is as it is, or as narrow as is best.
+    pub by: Option<&'static str>,
+    /// By how much the quantile falls for a further unit of its cost, to first order [mm]: the same for all
+    /// that are as narrow as is best. `None` where it has no price or is a grade or of a calibration.
+    pub mm_per_cost: Option<f64>,
     /// Whether it is a number of the weather, which stays as it is.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub weather: bool,
+}
+
+/// A calibration that has a price.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PricedCalibration {
+    /// Its name.
+    pub name: String,
+    /// Its cost.
+    pub cost: f64,
+    /// Whether it is worth its cost.
+    pub bought: bool,
+    /// By how much the cheapest purchase with it is cheaper than the cheapest one without it; `None` where
+    /// none without it keeps the limit.
+    pub saves: Option<f64>,
 }
 
 /// Results of independent draws of the deviations, with intervals at the study's confidence.
@@ -99,10 +132,6 @@ const ROUND: usize = 1 << 12;
 const ROUND_IN_WEATHER: usize = 1 << 9;
 /// Robots of a round that say how much the linear law explains.
 const EXPLAINED: usize = 512;
-/// Rounds at most.
-const ROUNDS: usize = 40;
-/// The quantile meets the limit within this share of the difference between limit and least error.
-const SETTLED: f64 = 1e-3;
 /// Robots that are observed first.
 const FIRST: usize = 64;
 /// Confidence at which too many robots fail for the quantile.
@@ -117,52 +146,44 @@ const CERTAIN: f64 = 1.0 - 1e-9;
 /// the robot without deviations, or too many robots of a sample, have no feasible tensions.
 pub fn tolerance_budget(sampling: &Sampling, limit: &Limit) -> Result<ToleranceBudget, AssessError> {
     let model = Model::new(sampling, limit)?;
-    let unmoved = vec![1.0; model.names.len()];
-    let mut factors = unmoved.clone();
-    let mut predicted = model.rounded_quantile(&factors)?;
-    // Equation (B3) is (B2) about zero, with a part of the variance that stays.
-    let weather_mm = model.of_weather_alone()?;
-    let (about, stays) = weather_mm.map_or((model.least_mm, 0.0), |alone| (0.0, alone));
-    let room = limit.limit_mm - about - stays;
-    let (first, mut rounds) = (predicted, 1);
-    let inflation = |quantile: f64, factors: &[f64]| {
-        let excess = (quantile - about).max(0.0).powi(2) - stays * stays;
-        excess.max(0.0) / left(&model.variances, factors)
+    let entries = Entries {
+        names: &model.names,
+        stds: &model.stds,
+        variances: &model.variances,
+        weather: &model.weather,
     };
-    while predicted > limit.limit_mm || (factors != unmoved && predicted < limit.limit_mm - SETTLED * room) {
-        if rounds == ROUNDS {
-            return Err(model.unreachable("the quantile does not settle", predicted));
-        }
-        // The aim lies below the limit by half of the allowed difference.
-        let aim = (stays + room * (1.0 - 0.5 * SETTLED)).powi(2) - stays * stays;
-        let aim = aim / inflation(predicted, &factors);
-        factors = allocate(&model.variances, &model.costs, aim).map_err(|_| {
-            model.unreachable("no tolerance has an effect on the error, to first order", predicted)
-        })?;
-        predicted = model.rounded_quantile(&factors)?;
-        rounds += 1;
-    }
+    let market = Market::of(sampling, limit, &entries)?;
+    let weather_mm = model.of_weather_alone()?;
+    let settled = model.settled(&market, weather_mm)?;
+    let Settled { bought, about, stays, .. } = &settled;
+    let factors = bought.shares();
+    let unmoved = vec![1.0; model.names.len()];
     let total: f64 = model.parts.iter().sum();
     let tightened: f64 = model.variances.iter().sum();
     let halved = |part: f64| {
-        let excess = inflation(first, &unmoved) * (tightened - 0.75 * part);
+        let excess = settled.first * (tightened - 0.75 * part);
         about + (stays * stays + if tightened > 0.0 { excess } else { 0.0 }).sqrt()
     };
-    let mut tolerances: Vec<Tolerance> = (0..factors.len())
-        .map(|j| Tolerance {
-            name: model.names[j].clone(),
-            std: model.stds[j],
-            share: model.parts[j] / total,
-            halved_mm: halved(model.variances[j]),
-            factor: factors[j],
-            cost: if model.weather[j] { 0.0 } else { model.costs[j] },
-            weather: model.weather[j],
-        })
-        .collect();
+    // By (B3), the quantile changes by so much for each unit of the variance.
+    let per_variance = settled.inflation / (2.0 * (limit.limit_mm - about));
+    let tolerance = |(j, (way, factor)): (usize, &(Way, f64))| Tolerance {
+        name: model.names[j].clone(),
+        std: model.stds[j],
+        share: model.parts[j] / total,
+        halved_mm: halved(model.variances[j]),
+        factor: *factor,
+        cost: market.offers.tolerances[j].1[0].cost,
+        cost_then: way.cost_at(*factor),
+        by: way.name.or((way.within[0] == *factor && *factor < 1.0).then_some("least")),
+        mm_per_cost: way
+            .variance_per_cost(*factor, model.variances[j])
+            .map(|of| per_variance * of)
+            .filter(|of| of.is_finite()),
+        weather: model.weather[j],
+    };
+    let mut tolerances: Vec<Tolerance> = bought.tolerances.iter().enumerate().map(tolerance).collect();
     tolerances
         .sort_by(|one, other| one.factor.total_cmp(&other.factor).then(other.share.total_cmp(&one.share)));
-    let cost = |of: fn(&Tolerance) -> f64| tolerances.iter().map(of).sum();
-    let cost = [cost(|one| one.cost), cost(|one| one.cost / one.factor)];
     Ok(ToleranceBudget {
         of: model.of,
         limit_mm: limit.limit_mm,
@@ -170,11 +191,13 @@ pub fn tolerance_budget(sampling: &Sampling, limit: &Limit) -> Result<ToleranceB
         least_mm: model.least_mm,
         weather_mm,
         explained: model.explained(&unmoved)?,
-        tolerances,
+        cost: [tolerances.iter().map(|one| one.cost).sum(), bought.cost],
+        priced: market.has_prices,
+        calibrations: model.calibrations(&market, &settled)?,
         now: model.verify(&unmoved, 1)?,
         tightened: model.verify(&factors, 2)?,
-        cost,
-        rounds,
+        tolerances,
+        rounds: settled.rounds,
     })
 }
 
@@ -189,7 +212,6 @@ struct Model<'a> {
     limit: &'a Limit,
     of: Limited,
     names: Vec<String>,
-    costs: Vec<f64>,
     /// Largest standard deviation of the inputs of a tolerance.
     stds: Vec<f64>,
     /// The error to first order about the means of the inputs.
@@ -230,16 +252,10 @@ impl<'a> Model<'a> {
             }
             inputs.push((known, input.mean()));
         }
-        let bought = || names.iter().zip(&weather).filter(|(_, weather)| !**weather).map(|(name, _)| name);
-        if let Some((name, _)) = limit.costs.iter().find(|(name, _)| !bought().any(|of| of == *name)) {
-            let expected = format!("one of the tolerances {}", Vec::from_iter(bought().cloned()).join(", "));
-            return Err(StudyError::setting("costs", name, expected).into());
-        }
         let mut model = Self {
             sampling,
             limit,
             of,
-            costs: names.iter().map(|name| limit.costs.get(name).copied().unwrap_or(1.0)).collect(),
             stds: vec![0.0; names.len()],
             parts: vec![0.0; names.len()],
             variances: Vec::new(),
@@ -313,6 +329,28 @@ impl<'a> Model<'a> {
         let pairs: Vec<_> =
             pairs.into_iter().filter_map(|(linear, observed)| Some((linear, observed?))).collect();
         Ok(explained(&pairs))
+    }
+
+    /// What each calibration saves, at the variance that was aimed at.
+    fn calibrations(
+        &self,
+        market: &Market,
+        settled: &Settled,
+    ) -> Result<Vec<PricedCalibration>, AssessError> {
+        let each = market.calibrations.iter().zip(&market.offers.calibrations).enumerate();
+        let of = |(k, (name, cost)): (usize, (&String, &f64))| {
+            let costs = |bought: bool| {
+                let decided: Vec<_> =
+                    (0..market.calibrations.len()).map(|i| (i == k).then_some(bought)).collect();
+                let found = self.bought(market, settled.aim.unwrap_or(f64::INFINITY), &decided)?;
+                Ok::<_, AssessError>(found.map(|found| found.cost))
+            };
+            let (with, without) = (costs(true)?, costs(false)?);
+            let saves = with.zip(without).map(|(with, without)| without - with);
+            let bought = settled.bought.calibrations[k];
+            Ok(PricedCalibration { name: name.clone(), cost: *cost, bought, saves })
+        };
+        each.map(of).collect()
     }
 
     fn unreachable(&self, reason: &'static str, reached_mm: f64) -> AssessError {

@@ -5,6 +5,7 @@
 //! yields, and its tensions are what the direct model says. Where the winches hold the pose, the tensions are
 //! recomputed, by the inverse model with the load. A pose may be held in one way and not in the other.
 
+pub(crate) mod breaks;
 pub(crate) mod question;
 pub(crate) mod results;
 pub(crate) mod row;
@@ -15,6 +16,7 @@ use crate::capacity::capacity_of;
 use crate::clearance::clearance_at;
 use crate::safety::winds::{AnyWeather, Winds, winds};
 use crate::tilt::tilt_at;
+use crate::workspace::breaks::after_breaks;
 use crate::workspace::question::{Shaking, TiltDirections, Way, Workspace, check};
 use crate::workspace::results::{Dominant, Held, Recomputed, WorkspacePose};
 use cdpr_dynamics::{LargestInBand, Swing};
@@ -82,8 +84,20 @@ pub fn compute_workspace(
             let shaken = shaken.map(|shaking| Box::new(shaken_at(workspace, pose, &shaking)));
             let weather = further.weather.filter(|_| outcome.is_ok());
             let weather = weather.map(|weather| Box::new(blown_at(workspace, pose, &weather)));
+            let breaks = further.breaks.map(|factors| Box::new(after_breaks(workspace, pose, &factors)));
             tick();
-            Ok(WorkspacePose { pose: *pose, outcome, recomputed, capacity, clearance, tilt, shaken, weather })
+            let pose = *pose;
+            Ok(WorkspacePose {
+                pose,
+                outcome,
+                recomputed,
+                capacity,
+                clearance,
+                tilt,
+                shaken,
+                weather,
+                breaks,
+            })
         };
         poses.par_iter().enumerate().zip(outcomes(workspace, poses)).map(one).collect()
     };

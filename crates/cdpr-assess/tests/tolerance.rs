@@ -210,3 +210,115 @@ fn the_weather_stays_as_it_is_and_the_other_tolerances_are_tightened() {
         refused(&position)
     );
 }
+
+/// CAROCA's study with prices.
+fn priced(prices: serde_json::Value) -> Result<Study, String> {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/caroca.json"));
+    let mut file: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    file["prices"] = prices;
+    Study::from_json(&file.to_string(), path).map_err(|error| error.to_string())
+}
+
+#[test]
+fn prices_of_the_reciprocal_law_are_the_costs_of_halving() {
+    let costs = [("a", 2.0), ("b", 5.0), ("youngs_modulus", 1.0), ("mass", 1.0), ("linear_density", 1.0)];
+    let costs: IndexMap<String, f64> =
+        costs.into_iter().map(|(name, cost)| (name.to_owned(), cost)).collect();
+    let prices = costs.iter().map(|(name, cost)| (name.clone(), serde_json::json!({"cost": cost})));
+    let study = priced(serde_json::Value::Object(prices.collect())).unwrap();
+    let limit = Limit { verified_with: 500, ..limit(Limited::Position, 30.0) };
+    let by_prices = tolerance_budget(&study.sampling("geometrical").unwrap(), &limit).unwrap();
+    let by_costs = budget("geometrical", &Limit { costs, ..limit }).unwrap();
+    for name in ["a", "b"] {
+        let [one, other] = [&by_prices, &by_costs].map(|found| factor(found, name));
+        assert!(one < 1.0 && (one / other - 1.0).abs() < 1e-9, "{name}: {one} {other}");
+    }
+    // What a further unit buys is what budgets for other limits cost.
+    let cost = |limit_mm: f64| {
+        let limit = Limit { limit_mm, ..limit.clone() };
+        tolerance_budget(&study.sampling("geometrical").unwrap(), &limit).unwrap().cost[1]
+    };
+    let rates: Vec<f64> =
+        by_prices.tolerances.iter().filter(|of| of.factor < 1.0).filter_map(|of| of.mm_per_cost).collect();
+    let wanted = 2.0 / (cost(29.0) - cost(31.0));
+    // Each budget meets its limit within a thousandth.
+    assert!(rates.len() == 2 && (rates[0] / rates[1] - 1.0).abs() < 1e-9, "{rates:?}");
+    assert!((rates[0] / wanted - 1.0).abs() < 0.05, "{rates:?} {wanted}");
+}
+
+#[test]
+fn a_calibration_is_bought_where_it_is_cheaper_than_grades() {
+    let of = |survey: f64, limit_mm: f64| {
+        let study = priced(serde_json::json!({
+            "b": {"grades": [{"std": 0.01, "cost": 10}, {"std": 0.005, "cost": 40}]},
+            "survey": {"cost": survey, "leaves": {"b": 0.0025}}
+        }));
+        let limit = Limit { verified_with: 400, ..limit(Limited::Position, limit_mm) };
+        tolerance_budget(&study.unwrap().sampling("geometrical").unwrap(), &limit)
+    };
+    let wide = of(60.0, 1000.0).unwrap();
+    assert_eq!((wide.cost, wide.calibrations[0].bought), ([0.0, 0.0], false));
+    assert_eq!(wide.calibrations[0].saves, Some(-60.0));
+    let std = wide.tolerances.iter().find(|of| of.name == "b").unwrap().std;
+    let (now, room) = (wide.now.quantile_mm.value, |std_then: f64| std_then / std);
+    assert!(room(0.01) < 1.0, "{std}");
+    // The first grade suffices for a limit a little below what is there now.
+    let little = of(60.0, 0.97 * now).unwrap();
+    assert_eq!((little.cost[1], little.tolerances[0].by), (10.0, Some("grade")), "{little:?}");
+    assert!(little.tightened.within.high >= 0.95);
+    // Without the survey the second grade would be bought.
+    let least = |limit_mm: f64, survey: f64| of(survey, limit_mm).unwrap();
+    let strict = (1..20)
+        .map(|k| 0.97 * now * (1.0 - 0.05 * f64::from(k)))
+        .find(|limit_mm| least(*limit_mm, 60.0).cost[1] > 10.0)
+        .unwrap();
+    let [dear, cheap] = [60.0, 30.0].map(|survey| least(strict, survey));
+    assert_eq!((dear.cost[1], dear.calibrations[0].saves), (40.0, Some(-20.0)));
+    assert_eq!((cheap.cost[1], cheap.calibrations[0].saves), (30.0, Some(10.0)));
+    assert_eq!((cheap.tolerances[0].by, cheap.calibrations[0].bought), (Some("calibration"), true));
+    assert!(cheap.sentences()[0].contains("spend 30.00: do survey."), "{:?}", cheap.sentences());
+    let unreached = of(60.0, 0.01 * now).unwrap_err().to_string();
+    assert!(unreached.contains("the best tolerances and all calibrations do not reach it"), "{unreached}");
+}
+
+#[test]
+fn a_price_that_no_tolerance_can_have_is_refused() {
+    use serde_json::json;
+    for (prices, said) in [
+        (json!({"z": {"cost": 1}}), "prices.z"),
+        (json!({"b": {"cost": -1}}), "prices.b.cost is -1: expected a positive finite number"),
+        (json!({"b": {}}), "prices.b.cost is missing"),
+        (json!({"b": {"cost": 1, "power": 0}}), "prices.b.power is 0"),
+        (
+            json!({"b": {"cost": 1, "grades": [{"std": 1e-3, "cost": 1}]}}),
+            "prices.b.grades is given: expected either",
+        ),
+        (json!({"b": {"grades": [{"std": 1e-3, "cost": -1}]}}), "prices.b.grades[0].cost is -1"),
+        (json!({"survey": {"leaves": {"b": 1e-4}}}), "prices.survey.cost is missing"),
+        (
+            json!({"survey": {"cost": 1, "leaves": {"z": 1e-4}}}),
+            "prices.survey.leaves.z is z: expected an entry",
+        ),
+        (json!({"survey": {"cost": 1, "power": 2, "leaves": {"b": 1e-4}}}), "prices.survey.power is given"),
+        (json!({"b": {"cost": 1, "leaves": {"a": 1e-4}}}), "prices.b.leaves is given"),
+    ] {
+        let message = priced(prices).map(|_| ()).unwrap_err();
+        assert!(message.contains(said), "{message}");
+    }
+    let refused = |prices, limit: &Limit| {
+        let study = priced(prices).unwrap();
+        tolerance_budget(&study.sampling("geometrical").unwrap(), limit).unwrap_err().to_string()
+    };
+    let usual = limit(Limited::Position, 30.0);
+    for (prices, said) in [
+        (json!({"b": {"cost": 1, "least": 1}}), "prices.b.least is 1: expected a standard deviation below"),
+        (json!({"b": {"grades": [{"std": 1, "cost": 1}]}}), "prices.b.grades[0].std is 1: expected"),
+        (json!({"survey": {"cost": 1, "leaves": {"b": 1}}}), "prices.survey.leaves.b is 1: expected"),
+    ] {
+        let message = refused(prices, &usual);
+        assert!(message.contains(said), "{message}");
+    }
+    let both = Limit { costs: [("b".to_owned(), 2.0)].into_iter().collect(), ..usual };
+    let message = refused(json!({"b": {"cost": 1}}), &both);
+    assert!(message.contains("costs.b is 2: expected none next to the `prices`"), "{message}");
+}

@@ -17,16 +17,18 @@ mod start;
 use crate::campaign::{Row, STD_EXPECTED, is_std};
 use crate::error::CalibrationError;
 use crate::fit::problem::Problem;
-use crate::fit::search::{Found, NEAR, SEEN};
+use crate::fit::search::{Found, NEAR, Priors, SEEN};
 use crate::fit::start::SOFT;
 use crate::fitted::{Difference, Fit, FitSettings};
+use crate::model::held::without_held;
 use crate::model::{Model, Shared, State};
 use crate::plausible::{check_columns, check_signs};
 use crate::sensor_error::{SensorError, check_each_once};
 use crate::unknowns::{Unknown, Unknowns};
 use cdpr_robot::{Robot, Vector3};
 
-/// Fits the unknowns of a robot to rows of measurements.
+/// Fits the unknowns of a robot to rows of measurements. What the platform cannot change counts as not
+/// measured: coordinates out of the plane of a planar robot, and the rotation of a point mass.
 ///
 /// # Errors
 /// [`CalibrationError::NoSurplus`] and [`CalibrationError::TooFew`] for fewer measurements than unknowns;
@@ -40,7 +42,8 @@ pub fn fit(
     settings: &FitSettings,
 ) -> Result<Fit, CalibrationError> {
     check(rows, unknowns, settings)?;
-    let problem = Problem { model: Model::new(robot, unknowns, rows), rows, settings: *settings };
+    let kept = without_held(robot, unknowns, rows);
+    let problem = Problem { model: Model::new(robot, unknowns, rows), rows: &kept, settings: *settings };
     problem.check()?;
     if unknowns.sensor(SensorError::LengthOffset).is_none() {
         check_signs(rows)?;
@@ -48,8 +51,8 @@ pub fn fit(
     let moved =
         [SensorError::LengthOffset, SensorError::DrumScale, SensorError::Frame, SensorError::FrameScale];
     if moved.iter().all(|error| unknowns.sensor(*error).is_none()) {
-        check_columns(robot, rows)?;
-        problem.check_frame()?;
+        check_columns(robot, rows, |row| problem.model.measured_pose(row))?;
+        problem.check_frame(rows)?;
     }
     let (start, first) = problem.begin()?;
     let without = |gone: &[usize]| {
@@ -99,7 +102,7 @@ impl Problem<'_> {
         let mut best = self.search(self.with_best_rows(start)?, NEAR, most)?;
         let mut ends = vec![best.at.cost];
         let from = best.state.shared.x.clone();
-        let told = self.decomposed(&best.at, &best.state.shared, true);
+        let told = self.decomposed(&best.at, &best.state.shared, Priors::All);
         let agreeing = |ends: &[f64], best: f64| ends.iter().filter(|cost| is_same(**cost, best)).count();
         for number in 1..2 * wanted {
             if wanted == 1 || (number >= wanted && agreeing(&ends, best.at.cost) > 1) {
@@ -179,6 +182,7 @@ pub fn cross_validated(
             row
         };
         let left: Vec<Row> = of(true).map(exact).collect();
+        let left = without_held(robot, &known.unknowns, &left);
         let problem = Problem { model: Model::new(robot, &known.unknowns, rows), rows: &left, settings };
         let x: Vec<f64> = known.estimates.iter().map(|estimate| estimate.value).collect();
         let states = left.iter().map(|row| problem.model.begin(row, &x)).collect::<Result<_, _>>()?;

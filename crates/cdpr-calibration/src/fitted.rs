@@ -112,7 +112,8 @@ pub struct Estimate {
     /// Standard deviation of the posterior, by data and priors; `None` for what they tell less exactly than
     /// one scale. Of the rotation of a frame, that of its rotation vector.
     pub std: Option<f64>,
-    /// Standard deviation by the data alone, without any prior; `None` for what they do not tell.
+    /// Standard deviation by the data alone, without any prior but, in the plane of a planar robot, those of
+    /// what is out of it; `None` for what they do not tell.
     pub std_of_data: Option<f64>,
     /// Standard deviation of the prior.
     pub prior_std: Option<f64>,
@@ -193,6 +194,34 @@ pub struct UnidentifiableCombination {
     pub weights: Vec<(String, f64)>,
 }
 
+/// Roots of the covariance of the unknowns, in scales.
+#[derive(Clone, Debug)]
+pub(crate) struct Roots {
+    /// With all priors.
+    pub(crate) posterior: DMatrix<f64>,
+    /// Without priors.
+    pub(crate) data: DMatrix<f64>,
+    /// With the priors of what is out of the plane of a planar robot alone, if that is sought. Hardly
+    /// anything measured depends on it, and how little must not decide what the data show in the plane.
+    pub(crate) in_plane: Option<DMatrix<f64>>,
+    /// Which unknowns are out of the plane.
+    pub(crate) out_of_plane: Vec<bool>,
+}
+
+impl Roots {
+    /// Standard deviations of a sum of unknowns with these weights: of the posterior, and by the data alone;
+    /// none at `scale` or above.
+    pub(crate) fn stds(&self, weights: &DVector<f64>, scale: f64) -> [Option<f64>; 2] {
+        let mut is_out = weights.iter().zip(&self.out_of_plane).map(|(weight, out)| *weight != 0.0 && *out);
+        let in_plane = self.in_plane.as_ref().filter(|_| !is_out.any(|out| out));
+        let data = in_plane.unwrap_or(&self.data);
+        [&self.posterior, data].map(|root| {
+            let std = (root * weights).norm();
+            is_known(std, scale).then_some(std)
+        })
+    }
+}
+
 /// A calibrated robot with all that is known of it.
 #[derive(Clone, Debug)]
 pub struct Fit {
@@ -210,8 +239,8 @@ pub struct Fit {
     pub deviations: Vec<f64>,
     /// Covariance of the unknowns, with the prior.
     pub covariance: DMatrix<f64>,
-    /// Roots of the covariance with and without the priors, in scales, whatever is told.
-    pub(crate) roots: [DMatrix<f64>; 2],
+    /// Roots of the covariance, in scales, whatever is told.
+    pub(crate) roots: Roots,
     /// Combinations that the data do not tell.
     pub unidentifiable: Vec<UnidentifiableCombination>,
     /// Sum of the squares of all residuals, priors included.
@@ -250,10 +279,7 @@ impl Fit {
     pub(crate) fn stds(&self, weights: &[(usize, f64)]) -> [Option<f64>; 2] {
         let mut scaled = DVector::zeros(self.estimates.len());
         weights.iter().for_each(|(j, weight)| scaled[*j] += weight * self.unknowns.all[*j].scale);
-        self.roots.each_ref().map(|root| {
-            let std = (root * &scaled).norm();
-            is_known(std, scaled.norm()).then_some(std)
-        })
+        self.roots.stds(&scaled, scaled.norm())
     }
 
     /// Whether the minimum is shown.
@@ -305,9 +331,8 @@ impl Fit {
     pub(crate) fn unidentified(&self) -> DMatrix<f64> {
         let Unknowns { terms, all, .. } = &self.unknowns;
         let map = map_of(terms, [self.deviations.len(), all.len()], |input| all[input].scale);
-        let [posterior, _] = &self.roots;
         let is_unknown = |row: &DVector<f64>| !is_known(row.norm(), 1.0);
-        let rows = posterior.row_iter().map(|row| row.transpose()).filter(is_unknown);
+        let rows = self.roots.posterior.row_iter().map(|row| row.transpose()).filter(is_unknown);
         let columns: Vec<_> = rows.map(|row| &map * row.normalize()).collect();
         if columns.is_empty() { DMatrix::zeros(map.nrows(), 0) } else { DMatrix::from_columns(&columns) }
     }

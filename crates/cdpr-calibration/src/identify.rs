@@ -1,8 +1,8 @@
 //! Which combinations of a robot's parameters a calibration identifies, and which poses identify most.
 //!
-//! Let the parameters be `θ = θ_0 + U x` with their uncertainties on the diagonal of U and x of unit
-//! variance, and the measurements `y = y_0 + J U x + N e` with their noise on the diagonal of N. All that
-//! matters is the matrix
+//! Let the parameters be `θ = θ_0 + U x` with causes x of unit variance that do not depend on each other, so
+//! that `U Uᵀ` is their covariance (U is diagonal where they are independent), and the measurements
+//! `y = y_0 + J U x + N e` with their noise on the diagonal of N. All that matters is the matrix
 //!
 //! ```text
 //! A = N⁻¹ J U = sum s_k w_k v_kᵀ                                                                  (K1)
@@ -17,7 +17,7 @@
 //! [ N⁻¹ σ L  N⁻¹ J U ]                                                                         (K6)
 //! ```
 //!
-//! The combination `v_k·x` of parameters shows in the measurements with
+//! The combination `v_k·x` of causes shows in the measurements with
 //! the ratio `s_k` of signal to noise: its standard deviation falls from 1 to `1/sqrt(1 + s_k²)`. Where
 //! `s_k = 0` the combination is not identifiable: no measurement of this kind shows it, however exact. The
 //! uncertainty that remains has the covariance
@@ -39,84 +39,31 @@
 //! Taking the pose that adds most, one after the other, comes within 1 - 1/e of the information of the best
 //! choice (D-optimal design; Nemhauser, Wolsey, Fisher 1978: the information is submodular).
 
-use crate::campaign::{Noise, STD_EXPECTED, is_std};
+mod causes;
+pub(crate) mod measurement;
+
+use crate::campaign::{STD_EXPECTED, is_std};
 use crate::error::CalibrationError;
+use crate::identify::causes::Causes;
+use crate::identify::measurement::Measurement;
+use crate::sensor_error::free_axes;
 use crate::solve::{Svd, own_parameters, triangle};
 use cdpr_robot::{CableEnd, Coordinate, Parameter, Pose, Robot, Vector3};
 use cdpr_statics::{DirectProblem, Load, WantedPose, deflection, derivatives};
-use nalgebra::{DMatrix, DVector};
-
-/// What is measured at every pose, with the standard deviation of its noise.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Measurement {
-    /// The pose where the platform stands with the lengths of the nominal robot.
-    Pose {
-        /// Noise of each coordinate [m].
-        position: f64,
-        /// Noise of each component of the rotation [rad]; `None` of a point mass, which has no rotation.
-        rotation: Option<f64>,
-    },
-    /// The tensions at the platform there; noise [N].
-    Tensions(f64),
-    /// The lengths are not exact, but measured with this noise [m]. Alone they identify nothing.
-    Lengths(f64),
-}
-
-impl Measurement {
-    /// Measurements of a robot by the names of their noise: position and rotation together, of a point mass the
-    /// position alone, tensions, lengths.
-    ///
-    /// # Errors
-    /// [`CalibrationError::Invalid`] for another name, for one of position and rotation alone, for the rotation
-    /// of a point mass, and for length alone.
-    pub fn named(robot: &Robot, named: &[(String, f64)]) -> Result<Vec<Self>, CalibrationError> {
-        let noise = Noise::named(named)?;
-        const NAMES: [&str; 4] = ["position", "rotation", "tension", "length"];
-        if let Some((name, value)) = named.iter().find(|(name, _)| !NAMES.contains(&Noise::sensor(name))) {
-            let expected = format!("one of {}", NAMES.join(", "));
-            return Err(CalibrationError::invalid(format!("noise {name}"), value, expected));
-        }
-        let pose = match (noise.position, noise.rotation) {
-            (_, Some(rotation)) if robot.platform.point => {
-                let expected = "no such noise: a point mass has no rotation, position alone is its pose";
-                return Err(CalibrationError::invalid("noise rotation", rotation, expected));
-            }
-            (Some(position), None) if robot.platform.point => Some(Self::Pose { position, rotation: None }),
-            (Some(position), rotation @ Some(_)) => Some(Self::Pose { position, rotation }),
-            (None, None) => None,
-            (Some(_), None) => return Err(Self::alone("position")),
-            (None, Some(_)) => return Err(Self::alone("rotation")),
-        };
-        if pose.is_none() && noise.tension.is_none() && noise.length.is_some() {
-            return Err(Self::lengths_alone());
-        }
-        let others = [noise.tension.map(Self::Tensions), noise.length.map(Self::Lengths)];
-        Ok(pose.into_iter().chain(others.into_iter().flatten()).collect())
-    }
-
-    fn lengths_alone() -> CalibrationError {
-        let expected = "position and rotation, or tension, too: lengths say where the platform is, no more";
-        CalibrationError::invalid("noise", "of length alone", expected)
-    }
-
-    fn alone(name: &str) -> CalibrationError {
-        CalibrationError::invalid("noise", format!("of {name} alone"), "position and rotation together")
-    }
-}
+use cdpr_study::ErrorModel;
+use nalgebra::{DMatrix, DVector, RowDVector};
 
 /// Poses at which a robot with uncertain parameters is measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
     robot: Robot,
-    uncertainties: Vec<f64>,
-    /// Indices of the uncertain parameters in the parameter vector.
-    indices: Vec<usize>,
+    causes: Causes,
     /// Matrix A of each pose, equation (K1).
     poses: Vec<DMatrix<f64>>,
     places: Vec<Pose>,
     /// Coordinates that are found, for a robot with few cables.
     free: Vec<Coordinate>,
-    /// Derivatives of a coordinate where the robot works by each parameter in units of its uncertainty [m].
+    /// Derivatives of a coordinate where the robot works by each cause in units of its uncertainty [m].
     work: DMatrix<f64>,
 }
 
@@ -138,14 +85,23 @@ pub struct ParameterValue {
     pub value: f64,
 }
 
-/// A combination of parameters.
+/// A cause with a number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CauseValue {
+    /// Name of the cause: that of a parameter which deviates alone, or of a cause of several.
+    pub cause: String,
+    /// The number.
+    pub value: f64,
+}
+
+/// A combination of causes: of parameters, where they are independent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Combination {
     /// s_k: signal of a change by its uncertainty over noise; zero where the combination is not identifiable.
     pub signal_to_noise: f64,
-    /// Parameters with their weights, each in units of its uncertainty, the largest first; the sum of squares
-    /// is 1. Weights below 1e-8 of the largest, rounding, are left out.
-    pub weights: Vec<ParameterValue>,
+    /// Causes with their weights, each in units of its uncertainty, the largest first; the sum of squares is
+    /// 1. Weights below 1e-8 of the largest, rounding, are left out.
+    pub weights: Vec<CauseValue>,
 }
 
 /// What a calibration identifies.
@@ -153,7 +109,7 @@ pub struct Combination {
 pub struct Identifiability {
     /// Orthogonal combinations that are identifiable, from the best to the least.
     pub identifiable: Vec<Combination>,
-    /// A basis of the combinations that are not identifiable; each has a parameter that is in no other.
+    /// A basis of the combinations that are not identifiable; each has a cause that is in no other.
     pub unidentifiable: Vec<Combination>,
     /// Each uncertain parameter with its standard deviation after the calibration over that before.
     pub remaining: Vec<ParameterValue>,
@@ -189,17 +145,20 @@ impl Calibration {
         if let Some(k) = wrong {
             return Err(CalibrationError::invalid(format!("uncertainties[{k}]"), uncertainties[k], expected));
         }
-        let indices = (0..uncertainties.len()).filter(|j| uncertainties[*j] > 0.0).collect();
-        let work = DMatrix::zeros(0, uncertainties.iter().filter(|std| **std > 0.0).count());
-        Ok(Self {
-            robot: robot.clone(),
-            uncertainties: uncertainties.to_vec(),
-            indices,
-            poses: Vec::new(),
-            places: Vec::new(),
-            free: Vec::new(),
-            work,
-        })
+        Self::of_model(robot, &ErrorModel::normal(robot, uncertainties))
+    }
+
+    /// A calibration of a robot with an error model, correlations of parameters included: those of causes
+    /// that act on several, and of the posterior of a fit.
+    ///
+    /// # Errors
+    /// [`CalibrationError::Study`] for a model of another robot; [`CalibrationError::Invalid`] for a standard
+    /// deviation that is none.
+    pub fn of_model(robot: &Robot, model: &ErrorModel) -> Result<Self, CalibrationError> {
+        let causes = Causes::of_model(robot, model)?;
+        let work = DMatrix::zeros(0, causes.count());
+        let (poses, places, free) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(Self { robot: robot.clone(), causes, poses, places, free, work })
     }
 
     /// The same for poses of which these coordinates are found, where a robot has few cables.
@@ -222,13 +181,12 @@ impl Calibration {
                 pose.fixed_rows::<3>(0).into_owned()
             }
         };
+        // What holds a planar robot in its plane holds that coordinate of P.
+        let rows: Vec<RowDVector<f64>> =
+            free_axes(&self.robot).iter().map(|k| rows.row(*k).into_owned()).collect();
         let first = self.work.nrows();
-        self.work.resize_vertically_mut(first + 3, 0.0);
-        for k in 0..3 {
-            for (column, index) in self.indices.iter().enumerate() {
-                self.work[(first + k, column)] = rows[(k, *index)] * self.uncertainties[*index];
-            }
-        }
+        self.work.resize_vertically_mut(first + rows.len(), 0.0);
+        self.work.rows_mut(first, rows.len()).copy_from(&self.causes.by_causes(&rows));
         Ok(())
     }
 
@@ -314,10 +272,7 @@ impl Calibration {
             return Err(Measurement::lengths_alone());
         }
         let inputs = at.pose.ncols() - n;
-        let shown = DMatrix::from_fn(rows.len(), self.indices.len(), |row, column| {
-            let index = self.indices[column];
-            rows[row][index] * self.uncertainties[index]
-        });
+        let shown = self.causes.by_causes(&rows);
         let moved = DMatrix::from_fn(rows.len(), n, |row, i| rows[row][inputs + i] * of_lengths);
         self.places.push(*pose);
         self.poses.push(if of_lengths == 0.0 { shown } else { without(&moved, &shown) });
@@ -327,12 +282,22 @@ impl Calibration {
     /// The uncertain parameters.
     pub fn parameters(&self) -> Vec<Parameter> {
         let all = Parameter::of(&self.robot);
-        self.indices.iter().map(|index| all[*index]).collect()
+        self.causes.uncertain.iter().map(|index| all[*index]).collect()
+    }
+
+    /// The rows of U of the uncertain parameters, each over the standard deviation of its parameter.
+    pub(crate) fn relative(&self) -> &DMatrix<f64> {
+        &self.causes.relative
+    }
+
+    /// Number of the causes.
+    pub(crate) fn causes(&self) -> usize {
+        self.causes.count()
     }
 
     /// What the measurements at the poses with these indices identify, equations (K1) and (K2).
     pub fn identify(&self, poses: impl IntoIterator<Item = usize>) -> Identifiability {
-        let n = self.indices.len();
+        let n = self.causes.count();
         // The triangular factor has the singular values and right vectors of the whole; a row of zeros adds
         // nothing.
         let blocks = poses.into_iter().filter_map(|pose| self.poses.get(pose));
@@ -342,8 +307,10 @@ impl Calibration {
         let mut free = vectors.rows(rank, n - rank).into_owned();
         own_parameters(&mut free);
         let combination = |row: DVector<f64>, value| self.combination(&row, value);
+        // C along the deviation of each parameter, in units of its uncertainty before.
+        let along = self.relative() * vectors.transpose();
         let remaining = |(j, parameter)| {
-            let variance: f64 = (0..n).map(|k| vectors[(k, j)].powi(2) / (1.0 + values[k] * values[k])).sum();
+            let variance: f64 = (0..n).map(|k| along[(j, k)].powi(2) / (1.0 + values[k] * values[k])).sum();
             ParameterValue { parameter, value: variance.sqrt() }
         };
         Identifiability {
@@ -355,8 +322,8 @@ impl Calibration {
 
     fn combination(&self, weights: &DVector<f64>, signal_to_noise: f64) -> Combination {
         let weights = weights.normalize();
-        let of = |(parameter, value): (_, &f64)| ParameterValue { parameter, value: *value };
-        let mut weights: Vec<_> = self.parameters().into_iter().zip(weights.iter()).map(of).collect();
+        let of = |(cause, value): (&String, &f64)| CauseValue { cause: cause.clone(), value: *value };
+        let mut weights: Vec<_> = self.causes.names.iter().zip(weights.iter()).map(of).collect();
         weights.sort_by(|a, b| b.value.abs().total_cmp(&a.value.abs()));
         let largest = weights.first().map_or(0.0, |weight| weight.value.abs());
         weights.retain(|weight| weight.value.abs() >= 1e-8 * largest);
@@ -366,7 +333,7 @@ impl Calibration {
     /// The `count` poses that identify most together, each the one that adds most to those before it,
     /// equation (K3).
     pub fn best_poses(&self, count: usize) -> Vec<ChosenPose> {
-        let n = self.indices.len();
+        let n = self.causes.count();
         let mut factor = DMatrix::identity(n, n);
         let mut left: Vec<usize> = (0..self.poses.len()).collect();
         let mut chosen = Vec::new();

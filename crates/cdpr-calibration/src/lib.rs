@@ -33,8 +33,9 @@ pub use error::CalibrationError;
 pub use fit::friction::{EstimatedValue, PulleyCalibration, PulleyOfCable, WinchResidual, calibrate_pulleys};
 pub use fit::{cross_validated, fit};
 pub use fitted::{Difference, Estimate, Fit, FitSettings, FitStatus, RobustLoss, UnidentifiableCombination};
+pub use identify::measurement::Measurement;
 pub use identify::{
-    AtWork, Calibration, ChosenPose, Combination, Identifiability, Measurement, ParameterValue,
+    AtWork, Calibration, CauseValue, ChosenPose, Combination, Identifiability, ParameterValue,
 };
 pub use plan::{Criterion, PosePlan, Quality};
 pub use results::arrows;

@@ -13,14 +13,16 @@
 //! are not measured at all, they are unknowns of the row without residual.
 
 pub(crate) mod compare;
+pub(crate) mod held;
 pub(crate) mod read;
 pub(crate) mod row;
 mod tilt;
 
-use crate::campaign::{Quantity, Row};
+use crate::campaign::Row;
+use crate::model::held::plane_of;
 use crate::sensor_error::SensorError;
 use crate::unknowns::Unknowns;
-use cdpr_robot::{Axis, ParameterLayout, Pose, Robot, Rotation3, Vector3};
+use cdpr_robot::{ParameterLayout, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{Equilibrium, Load, StaticsError};
 
 /// What is sought in all rows.
@@ -89,14 +91,16 @@ pub(crate) struct Model<'a> {
 
 impl<'a> Model<'a> {
     pub(crate) fn new(robot: &'a Robot, unknowns: &'a Unknowns, rows: &[Row]) -> Self {
-        let plane = robot.plane_offset().map(|(normal, offset)| {
-            let is_moved = unknowns.sensor(SensorError::Frame).is_some();
-            let measured = rows.iter().filter_map(|row| row.value(Quantity::Position(Axis::ALL[normal])));
-            let measured: Vec<f64> = measured.filter(|_| !is_moved).collect();
-            let mean = measured.iter().sum::<f64>() / measured.len() as f64;
-            (normal, if measured.is_empty() { offset } else { mean })
-        });
+        let plane = plane_of(robot, unknowns, rows);
         Self { robot, unknowns, layout: ParameterLayout::of(robot), plane }
+    }
+
+    /// The same with other unknowns.
+    pub(crate) fn seeking<'b>(&self, unknowns: &'b Unknowns) -> Model<'b>
+    where
+        'a: 'b,
+    {
+        Model { robot: self.robot, unknowns, layout: ParameterLayout::of(self.robot), plane: self.plane }
     }
 
     /// The robot with its deviations.

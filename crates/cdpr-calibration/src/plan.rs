@@ -7,16 +7,19 @@
 //! C' = C - C Bᵀ (1 + B C Bᵀ)⁻¹ B C                                                                 (K4)
 //! ```
 //!
-//! D-optimal sets maximize `-½ log2 det C`, A-optimal ones minimize the trace of C; sets for the work
-//! minimize the mean or the greatest of `t C tᵀ` over rows t, which tell how the parameters displace the
-//! platform where it works. A set grows by the pose that gains most. Then each of its poses is exchanged for
-//! the candidate that gains most, until no exchange gains (Fedorov 1972): a local optimum.
+//! D-optimal sets maximize `-½ log2 det C`, A-optimal ones minimize the mean of `w C wᵀ` over rows w, which
+//! tell how the causes displace each parameter in units of its uncertainty. Sets for the work minimize the
+//! mean or the greatest of `t C tᵀ` over rows t, which tell how the causes displace the platform where it
+//! works. A set grows by the pose that gains most. Then each of its poses is exchanged for the candidate that
+//! gains most, until no exchange gains (Fedorov 1972): a local optimum. Where the outermost poses are better
+//! yet, as they may be for the greatest variance, the exchanges begin again with them.
 
 use crate::identify::Calibration;
 use nalgebra::DMatrix;
 use rand::SeedableRng;
 use rand::seq::index::sample;
 use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
 
 /// What a set of poses is to be best in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,6 +48,26 @@ pub struct Quality {
     pub worst_at_work: Option<f64>,
 }
 
+impl Quality {
+    /// The standard deviation of a coordinate where the robot works [m] that a criterion is about: the
+    /// greatest for [`Criterion::WorstAtWork`], else the mean.
+    pub fn at_work(&self, criterion: Criterion) -> Option<f64> {
+        match criterion {
+            Criterion::WorstAtWork => self.worst_at_work,
+            _ => self.mean_at_work,
+        }
+    }
+
+    /// What the criterion minimizes, or what increases with it.
+    fn loss(&self, criterion: Criterion) -> f64 {
+        match criterion {
+            Criterion::Information => -self.information,
+            Criterion::Parameters => self.parameters,
+            Criterion::MeanAtWork | Criterion::WorstAtWork => self.at_work(criterion).unwrap_or_default(),
+        }
+    }
+}
+
 /// A set of poses and what it leaves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PosePlan {
@@ -60,6 +83,9 @@ pub struct PosePlan {
     pub corners: Quality,
 }
 
+/// Numbers of poses whose sets are searched for together.
+const TOGETHER: usize = 8;
+
 /// Random sets to compare with.
 const RANDOM_SETS: usize = 25;
 
@@ -72,23 +98,67 @@ const GAIN: f64 = 1e-9;
 impl Calibration {
     /// A set of `count` of the poses that is locally best. `seed` is that of the random sets beside it.
     pub fn plan(&self, count: usize, criterion: Criterion, seed: u64) -> PosePlan {
-        let candidates: Vec<usize> = (0..self.count()).collect();
-        let count = count.min(candidates.len());
+        let count = count.min(self.count());
+        let one_by_one = self.one_by_one(count, criterion);
+        let growing = (1..=one_by_one.len()).map(|k| self.quality(&one_by_one[..k])).collect();
+        let poses = self.best_set(&one_by_one, criterion);
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut sets: Vec<Quality> = (0..RANDOM_SETS)
+            .map(|_| self.quality(&sample(&mut random, self.count(), count).into_vec()))
+            .collect();
+        sets.sort_by(|a, b| a.loss(criterion).total_cmp(&b.loss(criterion)));
+        PosePlan {
+            quality: self.quality(&poses),
+            growing,
+            random: sets[RANDOM_SETS / 2],
+            corners: self.quality(&self.outermost(count)),
+            poses,
+        }
+    }
+
+    /// The least number of poses, `most` at most, whose plan by [`Calibration::plan`] leaves what `reaches`.
+    pub fn needed(
+        &self,
+        most: usize,
+        criterion: Criterion,
+        reaches: impl Fn(&Quality) -> bool + Sync,
+    ) -> Option<usize> {
+        let one_by_one = self.one_by_one(most.min(self.count()), criterion);
+        let is_enough =
+            |count: &usize| reaches(&self.quality(&self.best_set(&one_by_one[..*count], criterion)));
+        let counts: Vec<usize> = (1..=one_by_one.len()).collect();
+        counts.chunks(TOGETHER).find_map(|some| some.par_iter().copied().find_first(is_enough))
+    }
+
+    /// A set that grows by the pose that gains most.
+    fn one_by_one(&self, count: usize, criterion: Criterion) -> Vec<usize> {
         let mut poses: Vec<usize> = Vec::new();
-        let mut growing = Vec::new();
         while poses.len() < count {
             let covariance = self.covariance(&poses);
             let Some(best) = self.best(&covariance, &poses, criterion) else { break };
             poses.push(best.0);
-            growing.push(self.quality(&poses));
         }
+        poses
+    }
+
+    /// The better of the sets that exchanges lead to, from a set that has grown and from the outermost poses.
+    fn best_set(&self, one_by_one: &[usize], criterion: Criterion) -> Vec<usize> {
+        let found = self.exchanged(one_by_one.to_vec(), criterion);
+        let corners = self.outermost(one_by_one.len());
+        let [left, by_corners] = [&found, &corners].map(|poses| self.quality(poses).loss(criterion));
+        if by_corners < left { self.exchanged(corners, criterion) } else { found }
+    }
+
+    /// The set that exchanges of its poses lead to, in order.
+    fn exchanged(&self, mut poses: Vec<usize>, criterion: Criterion) -> Vec<usize> {
         for _ in 0..MOST_ROUNDS {
             let mut exchanged = false;
             for place in 0..poses.len() {
                 let mut others = poses.clone();
                 let old = others.remove(place);
                 let covariance = self.covariance(&others);
-                let now = self.loss(&covariance, &self.matrices()[old], criterion);
+                let before = self.variances(&covariance, criterion);
+                let now = self.loss(&covariance, &before, old, criterion);
                 if let Some((best, loss)) = self.best(&covariance, &others, criterion)
                     && best != old
                     && loss < now - GAIN * now.abs()
@@ -102,31 +172,15 @@ impl Calibration {
             }
         }
         poses.sort_unstable();
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let mut sets: Vec<Quality> = (0..RANDOM_SETS)
-            .map(|_| self.quality(&sample(&mut random, candidates.len(), count).into_vec()))
-            .collect();
-        let key = |quality: &Quality| match criterion {
-            Criterion::Information => -quality.information,
-            Criterion::Parameters => quality.parameters,
-            Criterion::MeanAtWork => quality.mean_at_work.unwrap_or_default(),
-            Criterion::WorstAtWork => quality.worst_at_work.unwrap_or_default(),
-        };
-        sets.sort_by(|a, b| key(a).total_cmp(&key(b)));
-        PosePlan {
-            quality: self.quality(&poses),
-            growing,
-            random: sets[RANDOM_SETS / 2],
-            corners: self.quality(&self.outermost(count)),
-            poses,
-        }
+        poses
     }
 
     /// What the measurements at these poses leave.
     pub fn quality(&self, poses: &[usize]) -> Quality {
         let covariance = self.covariance(poses);
-        let n = covariance.nrows().max(1) as f64;
-        let variances = self.at_work(&covariance);
+        let parameters = self.relative().nrows().max(1) as f64;
+        let of_parameters: f64 = variances_along(self.relative(), &covariance).iter().sum();
+        let variances = variances_along(self.work(), &covariance);
         let determinant = covariance.clone().cholesky().map(|factor| {
             factor.l_dirty().diagonal().iter().map(|pivot| 2.0 * pivot.abs().log2()).sum::<f64>()
         });
@@ -135,7 +189,7 @@ impl Calibration {
         let worst = variances.iter().copied().fold(0.0, f64::max);
         Quality {
             information: determinant.map_or(f64::NAN, |determinant| -0.5 * determinant),
-            parameters: (covariance.trace() / n).sqrt(),
+            parameters: (of_parameters / parameters).sqrt(),
             mean_at_work: has_work.then(|| mean.sqrt()),
             worst_at_work: has_work.then(|| worst.sqrt()),
         }
@@ -143,7 +197,7 @@ impl Calibration {
 
     /// C of a set of poses.
     fn covariance(&self, poses: &[usize]) -> DMatrix<f64> {
-        let n = self.parameters().len();
+        let n = self.causes();
         let mut covariance = DMatrix::identity(n, n);
         for pose in poses {
             if let Some((_, half)) = added(&covariance, &self.matrices()[*pose]) {
@@ -154,12 +208,6 @@ impl Calibration {
         covariance
     }
 
-    /// Variances of the coordinates where the robot works [m²].
-    fn at_work(&self, covariance: &DMatrix<f64>) -> Vec<f64> {
-        let work = self.work();
-        (work * covariance).component_mul(work).row_iter().map(|row| row.sum()).collect()
-    }
-
     /// The candidate that gains most, with what is then left by the criterion.
     fn best(
         &self,
@@ -168,26 +216,40 @@ impl Calibration {
         criterion: Criterion,
     ) -> Option<(usize, f64)> {
         let left = (0..self.count()).filter(|pose| !chosen.contains(pose));
-        left.map(|pose| (pose, self.loss(covariance, &self.matrices()[pose], criterion)))
+        let before = self.variances(covariance, criterion);
+        left.map(|pose| (pose, self.loss(covariance, &before, pose, criterion)))
             .min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// What the criterion minimizes, with a further pose.
-    fn loss(&self, covariance: &DMatrix<f64>, matrix: &DMatrix<f64>, criterion: Criterion) -> f64 {
-        let Some((factor, half)) = added(covariance, matrix) else { return f64::INFINITY };
-        let at_work = || {
-            let gained = &half * self.work().transpose();
-            let before =
-                self.at_work(covariance).into_iter().zip(gained.column_iter().map(|g| g.norm_squared()));
-            before.map(|(before, gain)| before - gain).collect::<Vec<_>>()
-        };
+    /// The rows whose variances a criterion is about; none for the determinant.
+    fn rows(&self, criterion: Criterion) -> Option<&DMatrix<f64>> {
         match criterion {
-            Criterion::Information => -factor.diagonal().iter().map(|pivot| pivot.log2()).sum::<f64>(),
-            Criterion::Parameters => covariance.trace() - half.norm_squared(),
-            Criterion::MeanAtWork => at_work().iter().sum(),
-            Criterion::WorstAtWork => at_work().into_iter().fold(0.0, f64::max),
+            Criterion::Information => None,
+            Criterion::Parameters => Some(self.relative()),
+            Criterion::MeanAtWork | Criterion::WorstAtWork => Some(self.work()),
         }
     }
+
+    /// The variances that a criterion is about.
+    fn variances(&self, covariance: &DMatrix<f64>, criterion: Criterion) -> Vec<f64> {
+        self.rows(criterion).map_or_else(Vec::new, |rows| variances_along(rows, covariance))
+    }
+
+    /// What the criterion minimizes, with a further pose; `before` are its variances without.
+    fn loss(&self, covariance: &DMatrix<f64>, before: &[f64], pose: usize, criterion: Criterion) -> f64 {
+        let Some((factor, half)) = added(covariance, &self.matrices()[pose]) else { return f64::INFINITY };
+        let Some(rows) = self.rows(criterion) else {
+            return -factor.diagonal().iter().map(|pivot| pivot.log2()).sum::<f64>();
+        };
+        let gained = half * rows.transpose();
+        let left = before.iter().zip(gained.column_iter()).map(|(before, of)| before - of.norm_squared());
+        if criterion == Criterion::WorstAtWork { left.fold(0.0, f64::max) } else { left.sum() }
+    }
+}
+
+/// `r C rᵀ` for each of some rows.
+fn variances_along(rows: &DMatrix<f64>, covariance: &DMatrix<f64>) -> Vec<f64> {
+    (rows * covariance).component_mul(rows).row_iter().map(|row| row.sum()).collect()
 }
 
 /// The lower factor of `1 + B C Bᵀ` of (K4), and its inverse times `B C`, for a further pose B.

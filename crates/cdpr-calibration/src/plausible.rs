@@ -42,15 +42,19 @@ fn cell(row: &Row, cable: usize, length: f64, expected: String) -> CalibrationEr
     CalibrationError::Cell { line: row.line, column, value: length.to_string(), expected }
 }
 
-/// Compares the lengths with the distances of the points at the measured poses. Sag, pulleys and the errors
+/// Compares the lengths with the distances of the points at the measured poses, which `pose` says. Sag, pulleys and the errors
 /// that are sought change these by far less than swapped columns.
 ///
 /// # Errors
 /// [`CalibrationError::Column`] naming two columns that fit far better the other way round, one that does
 /// with the other sign, or one that fits nowhere; [`CalibrationError::Cell`] for a row that stands out in
 /// this way.
-pub(crate) fn check_columns(robot: &Robot, rows: &[Row]) -> Result<(), CalibrationError> {
-    let rows: Vec<_> = rows.iter().filter_map(Placed::of).collect();
+pub(crate) fn check_columns(
+    robot: &Robot,
+    rows: &[Row],
+    pose: impl Fn(&Row) -> Option<Pose>,
+) -> Result<(), CalibrationError> {
+    let rows: Vec<_> = rows.iter().filter_map(|row| Placed::of(row, pose(row)?)).collect();
     if rows.is_empty() {
         return Ok(());
     }
@@ -64,14 +68,14 @@ pub(crate) fn check_columns(robot: &Robot, rows: &[Row]) -> Result<(), Calibrati
 /// A row with a measured position and lengths.
 struct Placed<'a> {
     position: Vector3<f64>,
+    rotation: Rotation3<f64>,
     lengths: &'a [f64],
     row: &'a Row,
 }
 
 impl<'a> Placed<'a> {
-    fn of(row: &'a Row) -> Option<Self> {
-        let [x, y, z] = Axis::ALL.map(|axis| row.value(Quantity::Position(axis)));
-        Some(Self { position: Vector3::new(x?, y?, z?), lengths: row.lengths.as_ref()?, row })
+    fn of(row: &'a Row, Pose { position, rotation }: Pose) -> Option<Self> {
+        Some(Self { position, rotation, lengths: row.lengths.as_ref()?, row })
     }
 }
 
@@ -86,8 +90,7 @@ struct PlacedRows<'a> {
 impl PlacedRows<'_> {
     /// Distance of the points of a cable [m] with the platform of a row at a position.
     fn distance(&self, of: &Placed, position: Vector3<f64>, cable: usize) -> f64 {
-        let rotation = of.row.rotation.unwrap_or_else(Rotation3::identity);
-        self.robot.span(&Pose { position, rotation }, cable).norm()
+        self.robot.span(&Pose { position, rotation: of.rotation }, cable).norm()
     }
 
     /// Misfit of column i with cable j [m], with the coordinates of the position in this order and with these

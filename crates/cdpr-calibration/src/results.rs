@@ -12,7 +12,7 @@ use crate::results::predicted::{uncertainty_map, variance_at};
 use crate::results::summary::{
     CalibrationSummary, Campaign, OutlierSummary, ParameterSummary, SensorSummary,
 };
-use crate::sensor_error::SensorError;
+use crate::sensor_error::{SensorError, free_axes};
 use crate::table::Measurements;
 use crate::unknowns::map_of;
 use cdpr_robot::{Axis, Parameter, Robot, UnitQuaternion};
@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 
 impl Fit {
     /// Factor of all standard deviations: 1, or where no noise is stated that of the residuals.
-    fn noise_scale(&self, stated: bool) -> f64 {
+    pub(crate) fn noise_scale(&self, stated: bool) -> f64 {
         if stated || self.degrees_of_freedom == 0 {
             return 1.0;
         }
@@ -34,21 +34,11 @@ impl Fit {
     /// prior that were not.
     pub fn posterior(&self, campaign: &Campaign) -> ErrorsFile {
         let parameters = Parameter::of(campaign.robot);
-        let mut covariance = self.parameter_covariance();
-        covariance *= self.noise_scale(campaign.measured.noise_is_stated).powi(2);
-        let sought: Vec<usize> = self.unknowns.terms.iter().map(|term| term.parameter).collect();
-        let mut is_there: Vec<bool> = (0..parameters.len()).map(|p| sought.contains(&p)).collect();
-        if let Some(prior) = campaign.prior {
-            let gone = |name: &String| {
-                let is_sought = self.unknowns.all.iter().any(|unknown| unknown.name == *name);
-                !is_sought && !self.unknowns.shared.contains(name)
-            };
-            // Inputs that were not sought keep their laws.
-            let is_gone = |term: &Term| gone(&prior.inputs[term.input].name);
-            let kept: Vec<Term> = prior.terms.iter().filter(|term| is_gone(term)).cloned().collect();
-            covariance += prior_covariance(prior, &kept, parameters.len());
-            kept.iter().for_each(|term| is_there[term.parameter] = true);
-        }
+        let covariance = self.whole_covariance(campaign);
+        let not_sought = self.not_sought(campaign);
+        let known = self.unknowns.terms.iter().chain(&not_sought);
+        let known: Vec<usize> = known.map(|term| term.parameter).collect();
+        let is_there: Vec<bool> = (0..parameters.len()).map(|p| known.contains(&p)).collect();
         let kept: Vec<usize> = (0..parameters.len()).filter(|p| is_there[*p]).collect();
         ErrorsFile {
             format: ERRORS_FORMAT.to_owned(),
@@ -59,6 +49,27 @@ impl Fit {
                 .map(|i| kept.iter().map(|j| 0.5 * (covariance[(*i, *j)] + covariance[(*j, *i)])).collect())
                 .collect(),
         }
+    }
+
+    /// The terms of the prior whose inputs were not sought: these keep their laws.
+    fn not_sought(&self, campaign: &Campaign) -> Vec<Term> {
+        let Some(prior) = campaign.prior else { return Vec::new() };
+        let is_gone = |term: &&Term| {
+            let name = &prior.inputs[term.input].name;
+            let is_sought = self.unknowns.all.iter().any(|unknown| unknown.name == *name);
+            !is_sought && !self.unknowns.shared.contains(name)
+        };
+        prior.terms.iter().filter(is_gone).copied().collect()
+    }
+
+    /// Covariance of all parameters after the fit, with those of the prior that were not sought.
+    fn whole_covariance(&self, campaign: &Campaign) -> DMatrix<f64> {
+        let scale = self.noise_scale(campaign.measured.noise_is_stated);
+        let covariance = self.parameter_covariance() * (scale * scale);
+        let count = covariance.nrows();
+        campaign.prior.iter().fold(covariance, |covariance, prior| {
+            covariance + prior_covariance(prior, &self.not_sought(campaign), count)
+        })
     }
 
     /// The calibrated robot with where its values come from.
@@ -91,7 +102,7 @@ impl Fit {
         let Measurements { rows, noise_is_stated, .. } = campaign.measured;
         let scale = self.noise_scale(*noise_is_stated);
         let stated = |value: Option<f64>| value.filter(|_| *noise_is_stated);
-        let covariance = self.parameter_covariance() * (scale * scale);
+        let covariance = self.whole_covariance(campaign);
         let prior = campaign.prior.map(|prior| prior_covariance(prior, &prior.terms, covariance.nrows()));
         let lengths: Option<Vec<&[f64]>> = rows.iter().map(|row| row.lengths.as_deref()).collect();
         let relative = self.unknowns.sensor(SensorError::LengthOffset).is_some();
@@ -221,17 +232,19 @@ const NEGLIGIBLE: f64 = 0.1;
 
 /// Covariance of the parameters by these terms of an error model.
 fn prior_covariance(model: &ErrorModel, terms: &[Term], count: usize) -> DMatrix<f64> {
-    let map = map_of(terms, [count, model.inputs.len()], |input| model.inputs[input].law.std());
+    let map = map_of(terms, [count, model.inputs.len()], |input| model.inputs[input].std());
     &map * map.transpose()
 }
 
 /// Displacement of P of each row, measured less modelled, before and after [m], with the pose: arrows in
-/// space.
+/// space, of a planar robot in its plane.
 pub fn arrows(found: &Fit) -> Vec<([f64; 3], [f64; 3], [f64; 3])> {
+    let free = free_axes(&found.robot);
     let of = |differences: &[Difference], row: usize| {
         Axis::ALL.map(|axis| {
             let is = |of: &&Difference| of.row == row && of.quantity == Quantity::Position(axis);
-            differences.iter().find(is).map(|of| of.difference)
+            let measured = differences.iter().find(is).map(|of| of.difference);
+            measured.or_else(|| (!free.contains(&axis.index())).then_some(0.0))
         })
     };
     (0..found.poses.len())

@@ -1,4 +1,5 @@
-//! Errors of the sensors: what is sought of them, and the size of the robot that lengths are judged by.
+//! Errors of the sensors: what is sought of them, and the size of the robot that lengths are judged by, with
+//! the axes along which it moves.
 
 use crate::error::CalibrationError;
 use cdpr_robot::{Axis, Robot};
@@ -114,4 +115,9 @@ pub(crate) fn check_each_once(errors: impl Iterator<Item = SensorError>) -> Resu
 pub(crate) fn size(robot: &Robot) -> f64 {
     let first = robot.cables[0].exit_point;
     robot.cables.iter().map(|cable| (cable.exit_point - first).norm()).fold(robot.platform_size(), f64::max)
+}
+
+/// Axes along which the platform can move: of a planar robot, those of its plane.
+pub(crate) fn free_axes(robot: &Robot) -> Vec<usize> {
+    robot.freedoms().components().into_iter().filter(|k| *k < 3).collect()
 }

@@ -39,11 +39,11 @@ pub struct Simulated<'a> {
     pub seed: u64,
 }
 
-/// Deviations of all parameters drawn from the laws of an error model.
+/// Deviations of all parameters drawn from the laws of an error model, in their steps.
 pub fn drawn(model: &ErrorModel, seed: u64) -> Vec<f64> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(u64::MAX);
-    let draw = |input: &cdpr_sensitivity::Input| input.law.quantile(random.random_range(1e-9..1.0 - 1e-9));
+    let draw = |input: &cdpr_sensitivity::Input| input.value(random.random_range(1e-9..1.0 - 1e-9));
     let inputs: Vec<f64> = model.inputs.iter().map(draw).collect();
     model.deviations(&inputs).values().to_vec()
 }

@@ -125,6 +125,8 @@ pub(crate) struct Decomposed {
     pub(crate) values: DVector<f64>,
     /// Right singular vectors, a row each.
     pub(crate) vectors: DMatrix<f64>,
+    /// Unknowns that keep their values and count as known: their columns are zero.
+    fixed: Vec<usize>,
     /// Residual along each left singular vector.
     along: DVector<f64>,
 }
@@ -139,7 +141,12 @@ impl Decomposed {
     /// The problem `|matrix δ + right|` to be least.
     pub(crate) fn new(matrix: DMatrix<f64>, right: &DVector<f64>) -> Self {
         let Svd { left, values, vectors } = Svd::of(&matrix);
-        Self { along: left.tr_mul(right), values, vectors }
+        Self { along: left.tr_mul(right), values, vectors, fixed: Vec::new() }
+    }
+
+    /// The same where these unknowns, whose columns are zero, count as known.
+    pub(crate) fn with_fixed(self, fixed: Vec<usize>) -> Self {
+        Self { fixed, ..self }
     }
 
     /// Whether the data tell combination k: better than its unit, and better than rounding.
@@ -183,6 +190,7 @@ impl Decomposed {
         for (mut row, value) in root.row_iter_mut().zip(self.values.iter()) {
             row /= value.max(floor);
         }
+        self.fixed.iter().for_each(|known| root.column_mut(*known).fill(0.0));
         root
     }
 

@@ -38,12 +38,12 @@ pub struct Unknowns {
 }
 
 impl Unknowns {
-    /// The inputs of an error model, each with mean and standard deviation of its law as the prior.
+    /// The inputs of an error model, each with its mean and standard deviation, steps included, as the prior.
     pub fn of_model(model: &ErrorModel) -> Self {
         let unknown = |input: &cdpr_sensitivity::Input| Unknown {
             name: input.name.clone(),
-            scale: input.law.std(),
-            prior: Some([input.law.mean(), input.law.std()]),
+            scale: input.std(),
+            prior: Some([input.mean(), input.std()]),
             bounds: [f64::NEG_INFINITY, f64::INFINITY],
         };
         Self { all: model.inputs.iter().map(unknown).collect(), terms: model.terms.clone(), ..Self::none() }
@@ -77,14 +77,18 @@ impl Unknowns {
             let expected = "coordinates in the plane of the robot: nothing measured depends on others";
             return Err(CalibrationError::invalid("unknown", out, expected));
         }
-        let known = |name: &&&str| parameters.iter().any(|p| is(p, name)) && !name.starts_with("dt");
+        let is_known = |p: &Parameter| !is_anchor_of_point(robot, *p);
+        let known =
+            |name: &&&str| parameters.iter().any(|p| is(p, name) && is_known(p)) && !name.starts_with("dt");
         if let Some(name) = names.iter().find(|name| !known(name)) {
-            let expected = format!("parameters of the robot ({})", Parameter::NAMES);
+            let of_point = if robot.platform.point { ", no anchor point of a point mass" } else { "" };
+            let expected = format!("parameters of the robot ({}){of_point}", Parameter::NAMES);
             return Err(CalibrationError::invalid("unknown", name, expected));
         }
         let mut unknowns = Self::none();
         for (index, parameter) in parameters.iter().enumerate() {
-            if names.iter().any(|name| is(parameter, name)) && !leaves_plane(robot, *parameter) {
+            let is_left_out = leaves_plane(robot, *parameter) || !is_known(parameter);
+            if names.iter().any(|name| is(parameter, name)) && !is_left_out {
                 unknowns.terms.push(Term { input: unknowns.all.len(), parameter: index, factor: 1.0 });
                 unknowns.all.push(Unknown {
                     name: parameter.to_string(),
@@ -97,10 +101,12 @@ impl Unknowns {
         Ok(unknowns)
     }
 
-    /// The parameters that are sought if nothing is said: anchor and exit points, mass and modulus.
+    /// The parameters that are sought if nothing is said: anchor and exit points, mass and modulus; of a point
+    /// mass no anchor points.
     pub fn usual(robot: &Robot) -> Self {
+        let names: &[&str] = if robot.platform.point { &["b"] } else { &["a", "b"] };
         // Every robot has these.
-        Self::free(robot, &["a", "b", "mass", "youngs_modulus"]).unwrap_or_else(|_| Self::none())
+        Self::free(robot, &[names, &["mass", "youngs_modulus"]].concat()).unwrap_or_else(|_| Self::none())
     }
 
     /// The inputs of an error model or, without one, the named parameters or groups, `none` or the usual
@@ -115,13 +121,29 @@ impl Unknowns {
         share: &[&str],
     ) -> Result<Self, CalibrationError> {
         let mut unknowns = match (prior, names) {
-            (Some(model), _) => Self::of_model(model),
+            (Some(model), _) => Self::of_model(model).without_anchors_of_point(robot)?,
             (None, []) => Self::usual(robot),
             (None, ["none"]) => Self::free(robot, &[])?,
             (None, names) => Self::free(robot, names)?,
         };
         share.iter().try_for_each(|group| unknowns.share(robot, group))?;
         Ok(unknowns)
+    }
+
+    /// The same without anchor points of a point mass, which are at P: they keep the laws of the prior.
+    fn without_anchors_of_point(mut self, robot: &Robot) -> Result<Self, CalibrationError> {
+        let parameters = Parameter::of(robot);
+        let is_anchor = |term: &&Term| is_anchor_of_point(robot, parameters[term.parameter]);
+        let mut gone: Vec<usize> = self.terms.iter().filter(is_anchor).map(|term| term.input).collect();
+        gone.sort_unstable();
+        gone.dedup();
+        let others = self.terms.iter().find(|term| gone.contains(&term.input) && !is_anchor(term));
+        if let Some(mixed) = others {
+            let expected = "a cause without anchor points: the cables of a point mass meet at P";
+            return Err(CalibrationError::invalid("unknown", &self.all[mixed.input].name, expected));
+        }
+        self.remove(&gone);
+        Ok(self)
     }
 
     /// Gives parameters one deviation in common: those of a group, `r`, or of a list of names and groups,
@@ -185,6 +207,17 @@ impl Unknowns {
             *own = both;
         }
         Ok(())
+    }
+
+    /// Whether each unknown only moves points of a planar robot at right angles to its plane.
+    pub(crate) fn out_of_plane(&self, robot: &Robot) -> Vec<bool> {
+        let parameters = Parameter::of(robot);
+        let leaves = |term: &Term| leaves_plane(robot, parameters[term.parameter]);
+        let of = |input: usize| {
+            let mut terms = self.terms.iter().filter(|term| term.input == input).peekable();
+            terms.peek().is_some() && terms.all(leaves)
+        };
+        (0..self.all.len()).map(of).collect()
     }
 
     /// The inputs that move a parameter or a group.
@@ -281,6 +314,11 @@ fn leaves_plane(robot: &Robot, parameter: Parameter) -> bool {
         return false;
     };
     normal == Some(axis.index())
+}
+
+/// Whether a parameter is a coordinate of an anchor point of a point mass, whose cables meet at P.
+fn is_anchor_of_point(robot: &Robot, parameter: Parameter) -> bool {
+    robot.platform.point && matches!(parameter, Parameter::AnchorPoint(..))
 }
 
 /// A change of a parameter so great that a value known no better is not known.

@@ -1,9 +1,13 @@
 //! What a calibration can tell, against perturbed robots.
 
 use crate::common::caroca;
-use cdpr_calibration::{Calibration, Combination, Identifiability, Measurement, ParameterValue};
+use cdpr_calibration::{
+    AtWork, Calibration, CauseValue, Combination, Criterion, Identifiability, Measurement, ParameterValue,
+};
 use cdpr_robot::{Parameter, Pose, Rotation3, Vector3};
-use cdpr_statics::{DirectStart, Load, direct, inverse};
+use cdpr_statics::{DirectProblem, DirectStart, Load, WantedPose, deflection, direct, inverse};
+use cdpr_study::{ERRORS_FORMAT, ErrorModel, ErrorsFile, error_model};
+use nalgebra::DMatrix;
 
 const NOISE: Measurement = Measurement::Pose { position: 1e-4, rotation: Some(1e-4) };
 
@@ -54,7 +58,7 @@ fn print(title: &str, found: &Identifiability) {
         .chain(found.identifiable.iter().rev().take(2))
         .chain(&found.unidentifiable)
     {
-        let parts = combination.weights.iter().take(4).map(|of| format!("{:+.2} {}", of.value, of.parameter));
+        let parts = combination.weights.iter().take(4).map(|of| format!("{:+.2} {}", of.value, of.cause));
         println!("  {:9.2e}: {}", combination.signal_to_noise, parts.collect::<Vec<_>>().join(" "));
     }
 }
@@ -68,7 +72,11 @@ fn poses_identify_neither_offsets_of_tensions_nor_with_one_payload_the_scale_of_
         let found = calibration(payloads, &[NOISE]).identify(0..54);
         print(&format!("poses under {payloads:?} kg"), &found);
         let weights = |combination: &Combination| -> Vec<ParameterValue> {
-            combination.weights.iter().copied().filter(|weight| weight.value.abs() > 1e-4).collect()
+            let of = |CauseValue { cause, value }: &CauseValue| ParameterValue {
+                parameter: cause.parse().unwrap(),
+                value: *value,
+            };
+            combination.weights.iter().map(of).filter(|weight| weight.value.abs() > 1e-4).collect()
         };
         let (offsets, scale): (Vec<_>, Vec<_>) = found
             .unidentifiable
@@ -107,8 +115,8 @@ fn a_change_along_a_combination_shows_as_its_signal_says() {
             let nominal = direct(&robot, &lengths, &load, DirectStart::Pose(&pose)).unwrap().equilibrium;
             let stands = |sign: f64| {
                 let mut deviations = vec![0.0; all.len()];
-                for ParameterValue { parameter, value } in &combination.weights {
-                    let index = all.iter().position(|other| other == parameter).unwrap();
+                for CauseValue { cause, value } in &combination.weights {
+                    let index = all.iter().position(|other| other.to_string() == *cause).unwrap();
                     deviations[index] = sign * change * value * uncertainties[index];
                 }
                 let moved = robot.perturbed(&deviations).unwrap().robot;
@@ -270,4 +278,96 @@ fn invalid_inputs_are_named() {
     assert!(refused(1e-3, &mut calibration).starts_with("noise is of length alone: expected position"));
     assert!(calibration.add(&Pose::at(0.0, 0.0, 9.0), &Load::none(), &[NOISE]).is_err());
     assert!(calibration.best_poses(3).is_empty());
+}
+
+/// Two exit points on a block, and correlated deviations as a fit leaves them.
+fn correlated() -> ErrorModel {
+    let names = ["b1.x", "b1.z", "b2.x", "b2.z", "a3.y", "mass"];
+    let std = [2e-3, 1e-3, 2e-3, 3e-3, 1e-3, 1.0];
+    let correlation = |i: usize, j: usize| if i == j { 1.0 } else { 0.8 - 0.1 * (i + j) as f64 / 2.0 };
+    let row = |i: usize| (0..6).map(|j| std[i] * std[j] * correlation(i, j)).collect();
+    let file = ErrorsFile {
+        format: ERRORS_FORMAT.to_owned(),
+        parameters: names.map(str::to_owned).to_vec(),
+        mean: vec![0.0; 6],
+        covariance: (0..6).map(row).collect(),
+    };
+    error_model(&file.entries().unwrap(), &caroca()).unwrap()
+}
+
+/// `C = (Σ⁻¹ + Σ Jᵀ N⁻² J)⁻¹` of the parameters themselves, and `t C tᵀ` where the robot works.
+#[test]
+fn correlations_of_what_is_known_before_count() {
+    let (robot, load, model) = (caroca(), Load::payload(50.0), correlated());
+    let all = Parameter::of(&robot);
+    let mut map = DMatrix::<f64>::zeros(all.len(), model.inputs.len());
+    for term in &model.terms {
+        map[(term.parameter, term.input)] += term.factor * model.inputs[term.input].std();
+    }
+    let whole = &map * map.transpose();
+    let some: Vec<usize> = (0..all.len()).filter(|p| whole[(*p, *p)] > 0.0).collect();
+    let prior = DMatrix::from_fn(some.len(), some.len(), |i, j| whole[(some[i], some[j])]);
+    assert!((prior[(0, 0)] - 1e0).abs() < 1e-9 && some.len() == 6);
+    let slopes = |at: &Pose| {
+        let held = deflection(&robot, WantedPose::at(at), &load).unwrap();
+        let problem = DirectProblem::new(&robot, &held.lengths, &load).unwrap();
+        let pose = problem.derivatives(&held.loaded.equilibrium).unwrap().pose;
+        DMatrix::from_fn(6, some.len(), |row, j| pose[(row, some[j])])
+    };
+    let work = Pose::at(0.5, 0.2, 1.8);
+    let t = slopes(&work).rows(0, 3).into_owned();
+    for (noise, measured) in [(1e-4, &poses()[..2]), (1e-3, &poses()[3..8]), (10.0, &poses()[..1])] {
+        let mut calibration = Calibration::of_model(&robot, &model).unwrap();
+        calibration.add_work(&work, &load, AtWork::Position).unwrap();
+        let mut information = prior.clone().try_inverse().unwrap();
+        for pose in measured {
+            let at = Measurement::Pose { position: noise, rotation: Some(noise) };
+            calibration.add(pose, &load, &[at]).unwrap();
+            let slopes = slopes(pose) / noise;
+            information += slopes.transpose() * slopes;
+        }
+        let left = information.try_inverse().unwrap();
+        let quality = calibration.quality(&(0..measured.len()).collect::<Vec<_>>());
+        let expected = ((&t * &left * t.transpose()).trace() / 3.0).sqrt();
+        let at_work = quality.mean_at_work.unwrap();
+        println!("noise {noise}: {at_work} m at work, {expected} m");
+        assert!((at_work / expected - 1.0).abs() < 1e-6, "{at_work} {expected}");
+        let found = calibration.identify(0..measured.len());
+        assert_eq!(found.identifiable.len() + found.unidentifiable.len(), model.inputs.len());
+        let mut squares: f64 = 0.0;
+        for (k, of) in found.remaining.iter().enumerate() {
+            let expected = (left[(k, k)] / prior[(k, k)]).sqrt();
+            assert!((of.value / expected - 1.0).abs() < 1e-6, "{}: {} {expected}", of.parameter, of.value);
+            squares += expected * expected / 6.0;
+        }
+        assert!((quality.parameters / squares.sqrt() - 1.0).abs() < 1e-6);
+        // The best pose for the parameters is the one that leaves least of them.
+        let best = calibration.plan(1, Criterion::Parameters, 1);
+        let all = (0..measured.len()).map(|pose| calibration.quality(&[pose]).parameters);
+        assert!((best.quality.parameters / all.fold(f64::INFINITY, f64::min) - 1.0).abs() < 1e-9);
+    }
+}
+
+/// The plans are searched for each number of poses; sets that grow need more.
+#[test]
+fn the_number_of_poses_that_is_needed_is_the_least_whose_plan_suffices() {
+    let mut calibration = calibration(&[50.0], &[NOISE]);
+    for x in [-1.0, 0.0, 1.0] {
+        calibration.add_work(&Pose::at(x, 0.3, 1.7), &Load::payload(50.0), AtWork::Position).unwrap();
+    }
+    for criterion in [Criterion::Information, Criterion::MeanAtWork, Criterion::WorstAtWork] {
+        let plans: Vec<_> = (1..=9).map(|count| calibration.plan(count, criterion, 1)).collect();
+        let left: Vec<f64> = plans.iter().map(|plan| plan.quality.at_work(criterion).unwrap()).collect();
+        let worst = criterion == Criterion::WorstAtWork;
+        assert_eq!(left[3] == plans[3].quality.worst_at_work.unwrap(), worst);
+        for wanted in left.iter().map(|left| left * (1.0 + 1e-9)).chain([0.0]) {
+            let expected = left.iter().position(|left| *left <= wanted).map(|k| k + 1);
+            let reaches = |of: &cdpr_calibration::Quality| of.at_work(criterion).unwrap() <= wanted;
+            assert_eq!(calibration.needed(9, criterion, reaches), expected, "{criterion:?} {left:?}");
+        }
+        // No plan is worse than the outermost poses.
+        let corners = plans.iter().map(|plan| plan.corners.at_work(criterion).unwrap());
+        let is_worse = corners.zip(&left).any(|(corners, left)| corners < *left);
+        assert!(!is_worse || criterion == Criterion::Information, "{criterion:?}");
+    }
 }

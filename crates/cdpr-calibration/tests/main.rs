@@ -8,6 +8,7 @@ mod frame;
 mod identify;
 mod loads;
 mod minimum;
+mod planar;
 mod pulleys;
 mod recovery;
 mod reference;

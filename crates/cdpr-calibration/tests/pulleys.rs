@@ -128,6 +128,32 @@ fn robots_of_the_library_identify_what_a_noisy_load_cycle_can() {
     }
 }
 
+/// The winches read the tensions at the wheels, which those at the platform differ from by the weight of the
+/// cables.
+#[test]
+fn heavy_cables_do_not_change_the_friction_that_is_found() {
+    let truth = PulleyFriction { friction: 0.05, bearing: 0.02 };
+    let (mut robot, pose) = (library("expo2015-lucia", 2.0), Pose::at(0.2, 0.1, 2.0));
+    robot.cables.iter_mut().for_each(|cable| cable.properties.linear_density *= 10.0);
+    let n = robot.cables.len();
+    let laws = vec![HysteresisLaw::linear().unwrap(); n];
+    let wanted = cdpr_statics::WantedPose::at(&pose);
+    let cycle = load_cycle_over_pulleys(&robot, wanted, &laws, 60.0, 12, truth).unwrap();
+    let columns = [vec!["payload_kg".to_owned()], numbered("t#_winch_n", n)].concat();
+    let steps = cycle.loading.iter().chain(cycle.unloading.iter().skip(1));
+    let row = |step: &cdpr_statics::hysteresis::CycleStep| {
+        let winches = step.pulleys.iter().map(|wheel| wheel.winch_tension);
+        std::iter::once(step.payload).chain(winches).collect()
+    };
+    let rows: Vec<Vec<f64>> = steps.map(row).collect();
+    let found = calibrate_pulleys(&robot, &measured(&robot, &columns, &rows), Some(&pose), &[]).unwrap();
+    let [one, other] = found.combination;
+    let exact = one * truth.friction + other * truth.bearing;
+    println!("{:?} {exact} {:?}", found.combined, found.rms_n);
+    assert!((found.combined.value / exact - 1.0).abs() < 1e-3, "{:?} {exact}", found.combined);
+    assert!(found.rms_n[1] < 5e-3 * found.rms_n[0], "{:?}", found.rms_n);
+}
+
 /// Tensions at both sides of wheels that slip the way in which the winches drive, by the capstan's equation.
 #[test]
 fn winches_that_drive_from_pose_to_pose_slip_the_way_in_which_cables_run() {

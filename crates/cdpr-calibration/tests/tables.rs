@@ -2,10 +2,11 @@
 
 use crate::common::{Case, EXTERNAL, caroca, cases};
 use cdpr_calibration::{
-    Fit, FitSettings, FitStatus, Measurements, Noise, Quantity, Row, Unknowns, carry_out, cross_validated,
-    drawn, fit, read_measurements, simulate,
+    CalibrationSummary, Campaign, Fit, FitSettings, FitStatus, Measurements, Noise, Quantity, Row, Unknowns,
+    carry_out, cross_validated, drawn, fit, read_measurements, simulate, write_measurements,
 };
 use cdpr_robot::{Axis, Parameter, Robot};
+use cdpr_study::error_model;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
@@ -218,6 +219,10 @@ fn bounds_hold_and_are_named() {
     assert!((of.value - 5.0).abs() < 4.0 * of.std.unwrap(), "{}", of.value);
     assert_eq!(bound.estimates[0].value, 1.0);
     assert!(bound.chi_square > 2.0 * free.chi_square);
+    // It counts as known there.
+    assert_eq!(bound.estimates[0].std, Some(0.0));
+    assert_eq!(bound.covariance[(0, 0)], 0.0);
+    assert!(bound.estimates[0].is_identifiable());
     // A start outside of the bounds is moved into them.
     let inside = with(Some([4.0, 6.0]));
     assert!((inside.estimates[0].value - of.value).abs() < 1e-6);
@@ -300,4 +305,58 @@ fn cables_without_a_column_of_their_own_count_as_not_measured_and_are_named() {
     assert_eq!(missing("x_m,y_m,z_m"), "");
     let lengths = read_measurements(b"l1_m,l2_m,l4_m\n1,1,1\n", &caroca(), &[]).unwrap_err().to_string();
     assert_eq!(lengths, "column l3_m is missing: expected lengths of all cables, or of none");
+}
+
+/// Masses are known to whole kilograms: what is drawn, and the prior, have these steps.
+#[test]
+fn steps_of_deviations_are_those_of_the_study() {
+    let robot = caroca();
+    let text =
+        r#"{"mass": {"law": {"normal": {"mean": 0, "std": 0.5}}, "steps": {"nearest": {"step": 1.0}}}}"#;
+    let model = error_model(&serde_json::from_str(text).unwrap(), &robot).unwrap();
+    let mass = |seed| drawn(&model, seed).into_iter().fold(0.0, |sum: f64, of| sum + of.abs());
+    let all: Vec<f64> = (0..20).map(mass).collect();
+    assert!(all.iter().all(|of| of.fract() == 0.0) && all.contains(&1.0) && all.contains(&0.0), "{all:?}");
+    let std = model.inputs[0].std();
+    assert!((std / 0.5 - 1.0).abs() > 0.1, "{std}");
+    let unknown = &Unknowns::of_model(&model).all[0];
+    let [mean, of_prior] = unknown.prior.unwrap();
+    assert!(unknown.scale == std && of_prior == std && mean.abs() < 1e-15, "{unknown:?}");
+}
+
+/// Priors count where noise is not stated: it is what the residuals show.
+#[test]
+fn noise_that_is_not_stated_is_estimated_before_anything_is_judged() {
+    let case = &cases()[0];
+    let model = case.model();
+    let noise = Noise { position: Some(1e-4), rotation: Some(1e-4), length: None, ..Noise::default() };
+    let rows = campaign(case, 14, noise, 3);
+    let (header, lines) = write_measurements(&rows);
+    let lines: Vec<String> = lines.iter().map(|line| line.join(",")).collect();
+    let text = format!("{}\n{}\n", header.join(","), lines.join("\n"));
+    let fitted = |noise: &[(&str, f64)]| {
+        let measured = read(&text, noise);
+        let unknowns = Unknowns::of_model(&model);
+        let campaign = Campaign {
+            robot: &case.robot,
+            prior: Some(&model),
+            unknowns: &unknowns,
+            measured: &measured,
+            name: "measured.csv",
+            settings: FitSettings::default(),
+            folds: 0,
+        };
+        carry_out(&campaign, None, |_, _, _| String::new()).unwrap().summary
+    };
+    let count = |of: &CalibrationSummary| of.parameters.values().filter(|of| of.identifiable).count();
+    let stated = fitted(&[("position", 1e-4), ("rotation", 1e-4)]);
+    let estimated = fitted(&[]);
+    println!("{} {} {}", count(&stated), count(&estimated), estimated.noise_scale);
+    assert!(count(&estimated).abs_diff(count(&stated)) <= 4);
+    assert!((estimated.chi_square / estimated.degrees_of_freedom as f64 - 1.0).abs() < 0.1);
+    assert!(estimated.noise_scale > 10.0);
+    for (name, of) in &estimated.parameters {
+        assert!(of.std.unwrap() <= 1.1 * of.prior_std.unwrap(), "{name}: {of:?}");
+        assert!(of.moved_by_prior_std.unwrap().abs() < 4.0, "{name}: {of:?}");
+    }
 }

@@ -39,21 +39,26 @@ fn modes(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// A dropped payload on taut cables, and a cable that parts, after which others go slack.
+/// A dropped payload on taut cables, and cables that part, after which others go slack: heavy and light ones.
 #[allow(clippy::unwrap_used)]
 fn motions(criterion: &mut Criterion) {
-    let robot = Robot::from_json(CASES[0].1).unwrap();
-    let load = Load::payload(50.0);
-    let held = inverse(&robot, &Pose::at(0.0, 0.0, 2.0), &load).unwrap();
-    let problem = DirectProblem::new(&robot, &held.lengths, &load).unwrap();
-    let rest = problem.direct(DirectStart::Near(&held.equilibrium)).unwrap().equilibrium;
     let settings = Settings { damping: 2e-4, ..Settings::until(0.2) };
     let mut group = criterion.benchmark_group("simulate");
     group.sample_size(10);
-    for (name, change) in [
-        ("cogiro/payload", Change::Payload(-50.0)),
-        ("cogiro/cut", Change::Cut { cable: 0, at: CutAt::Anchor }),
+    let light = include_str!("../../../data/robots/ipanema-1.json");
+    let cut = Change::Cut { cable: 0, at: CutAt::Anchor };
+    for (name, file, height, change) in [
+        ("cogiro/payload", CASES[0].1, 2.0, Change::Payload(-50.0)),
+        ("cogiro/cut", CASES[0].1, 2.0, cut.clone()),
+        ("ipanema-1/cut", light, 1.0, cut),
     ] {
+        let mut robot = Robot::from_json(file).unwrap();
+        let inertia = robot.platform.inertia.unwrap_or_else(|| robot.assumed_inertia());
+        robot.platform.inertia = Some(inertia);
+        let load = Load::payload(if height == 2.0 { 50.0 } else { 0.0 });
+        let held = inverse(&robot, &Pose::at(0.0, 0.0, height), &load).unwrap();
+        let problem = DirectProblem::new(&robot, &held.lengths, &load).unwrap();
+        let rest = problem.direct(DirectStart::Near(&held.equilibrium)).unwrap().equilibrium;
         let events = [Event { time: 0.0, change }];
         group.bench_function(name, |bencher| {
             bencher.iter(|| simulate(&problem, black_box(&rest), &events, &settings).unwrap());

@@ -5,11 +5,15 @@ mod cable;
 mod change;
 mod event;
 mod lead;
+mod links;
+mod matrices;
 mod mesh;
+mod midpoint;
 mod radau;
 mod run;
 mod series;
 mod setting;
+mod solver;
 mod system;
 mod winch;
 

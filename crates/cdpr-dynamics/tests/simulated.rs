@@ -122,6 +122,24 @@ fn cables_part_and_winches_turn_on_every_robot() {
     }
 }
 
+/// Elements of slack cables lose and regain their tension. Steps of the method for smooth motions take seven
+/// evaluations at least, and there would be more than 600 of them.
+#[test]
+fn slack_cables_of_a_light_robot_take_few_evaluations_and_keep_the_energy() {
+    let robot = robot(ROBOTS[3].0);
+    let (lengths, rest) = rest(&robot, ROBOTS[3].1, "");
+    let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
+    for damping in [0.0, 2e-4] {
+        let settings = Settings { damping, ..Settings::until(0.2) };
+        let events = [at(0.0, Change::Cut { cable: 0, at: CutAt::Anchor })];
+        let series = simulate(&problem, &rest, &events, &settings).unwrap();
+        let (work, energy) = (series.work, series.energy);
+        println!("{work:?}, {energy:?}");
+        assert!(series.slack.contains(&true) && work.evaluations < 4000, "{damping}: {work:?}");
+        assert!(energy.drift.abs() < 1e-3 * energy.kinetic, "{damping}: {energy:?}");
+    }
+}
+
 #[test]
 fn events_that_are_not_possible_are_refused_with_their_place() {
     let robot = robot(ROBOTS[1].0);

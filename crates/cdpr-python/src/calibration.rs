@@ -158,7 +158,7 @@ pub(crate) fn identify(
         let found = calibration.identify(0..held.len());
         let part = |of: &Combination| {
             let weights: Map<String, Value> =
-                of.weights.iter().map(|of| (of.parameter.to_string(), json!(of.value))).collect();
+                of.weights.iter().map(|of| (of.cause.clone(), json!(of.value))).collect();
             json!({ "signal_to_noise": of.signal_to_noise, "weights": weights })
         };
         let remaining: Map<String, Value> =

@@ -82,6 +82,27 @@ def test_a_budget_of_tolerances_is_that_of_the_program(data):
         assess.tolerances(study, "mechanical", 1.0, observations=1000)
 
 
+def test_prices_of_a_study_buy_tolerances_and_calibrations(data):
+    study = json.loads((data / "studies" / "caroca.json").read_text())
+    study["robot"] = cdpr.Robot.from_file("caroca")
+
+    def budget(prices, limit_mm):
+        priced = {**study, "prices": prices}
+        return assess.tolerances(priced, "geometrical", limit_mm, of="position", observations=200)
+
+    prices = {"b": {"grades": [{"std": 0.01, "cost": 10}]}, "survey": {"cost": 30, "leaves": {"b": 0.0025}}}
+    wide = budget(prices, 1000.0)
+    assert not wide.calibrations[0]["bought"] and wide.calibrations[0]["saves"] == -30
+    assert (wide.cost_then == 0).all() and numpy.isnan(wide.mm_per_cost).all()
+    now = wide.now["quantile_mm"]["value"]
+    assert budget(prices, 0.97 * now).cost_then.sum() == 10
+    tight = budget({"b": {"cost": 5, "power": 2}}, 0.8 * now)
+    assert tight.names[0] == "b" and tight.mm_per_cost[0] > 0
+    assert abs(tight.cost_then[0] - 5 / tight.factor[0] ** 2) < 1e-9
+    with pytest.raises(cdpr.InputError, match="prices.z is z: expected an entry of an error model"):
+        budget({"z": {"cost": 1}}, 1000.0)
+
+
 @pytest.mark.parametrize("name, free", [("cogiro", None), ("four-cables", ["roll", "pitch"])])
 def test_robustness_is_the_same_again_and_its_counts_add_up(name, free, tmp_path):
     robot, calls = cdpr.Robot.from_file(name), []

@@ -730,6 +730,24 @@ def test_the_platform_rests_when_a_cable_breaks(caroca):
         caroca.safety(POSE, swing=0.1)
 
 
+def test_partial_factors_divide_the_breaking_force(caroca):
+    factors = {"permanent": 1.0, "variable": 1.0, "resistance": 2.0, "accidental": 1.0}
+    found = caroca.safety(POSE, factors=factors)
+    assert found.utilization.shape == (9,) and found.utilization_reasons == [""] * 9
+    numpy.testing.assert_allclose(found.utilization[1:], 2.0 / found.safety_factor, rtol=1e-12)
+    heavy = caroca.safety([POSE, POSE], factors={**factors, "permanent": 1.35, "resistance": (2.0, 1.0)})
+    assert heavy.utilization.shape == (2, 9) and heavy.utilization[0, 0] > 1.3 * found.utilization[0]
+    numpy.testing.assert_allclose(heavy.utilization[0, 1:], 0.5 * found.utilization[1:], rtol=1e-12)
+    assert numpy.isnan(caroca.safety(POSE).utilization).all() and caroca.safety(POSE).utilization_reasons == []
+    cogiro = cdpr.Robot.from_file("cogiro").safety([0, 0, 2], factors=factors)
+    assert numpy.isnan(cogiro.utilization).all()
+    assert set(cogiro.utilization_reasons) == {"no cable has a breaking_force"}
+    with pytest.raises(cdpr.InputError, match="accidental"):
+        caroca.safety(POSE, factors={"permanent": 1.35, "variable": 1.5, "resistance": 2.0})
+    with pytest.raises(cdpr.InputError, match="from 0.1 to 10"):
+        caroca.safety(POSE, factors={**factors, "permanent": 135})
+
+
 def test_the_platform_swings_when_a_cable_breaks():
     robot = cdpr.Robot.from_file("cogiro")
     found = robot.safety([0, 0, 2], swing=0.3)

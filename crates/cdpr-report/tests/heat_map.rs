@@ -2,8 +2,8 @@
 
 use crate::figures::{lines as lines_of, rectangles};
 use cdpr_assess::{
-    AnyWeather, Further, ShakingSummary, TiltDirections, Workspace, WorkspaceRow, WorkspaceSummary,
-    WrenchSet, compute_workspace,
+    AnyWeather, Further, PartialFactors, ShakingSummary, TiltDirections, Workspace, WorkspaceRow,
+    WorkspaceSummary, WrenchSet, compute_workspace,
 };
 use cdpr_report::{MapQuantity, ReportError, heat_map, tolerance_map};
 use cdpr_robot::{Axis, Matrix3, Robot, Rotation3, Vector3};
@@ -55,6 +55,7 @@ fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
         tilt: Some(TiltDirections { count: 4, accuracy: 0.02 }),
         shaking: None,
         weather: Some(AnyWeather { speed: Some(15.0), ..AnyWeather::default() }),
+        breaks: Some(PartialFactors::ONE),
     };
     let mut summary = summary_with(&robot, Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap(), further);
     summary.shaking = Some(SHAKING);
@@ -83,6 +84,8 @@ fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
             MapQuantity::Tilt => (without(|row| row.tilt_deg), "worst direction"),
             MapQuantity::Amplitude => (without(|row| row.amplitude_mm_per_n), "shaken from 0 Hz to 8 Hz"),
             MapQuantity::WinchAmplitude => (without(|row| row.winch_mm_per_mm), "drag 0.5 1/s"),
+            MapQuantity::Utilization => (without(|row| row.utilization), "after each break"),
+            MapQuantity::AfterBreak => (without(|row| row.break_mm), "after the worst break"),
             MapQuantity::Weather => (without(|row| row.weather_mm), "wind of 15 m/s from any direction"),
             _ => (kept, "lengths kept"),
         };

@@ -84,3 +84,17 @@ fn positions_on_a_circle_or_a_loop_are_no_sequence() {
         assert!(found.certain.is_empty() && related, "{rows} rows: {found:?}");
     }
 }
+
+/// Hours and machines that repeat every eight rows decide each other.
+#[test]
+fn levels_that_take_turns_are_no_sequence() {
+    let mut source = Source::new(4);
+    let turns = [0.0, 3.0, 6.0, 1.0, 4.0, 7.0, 2.0, 5.0];
+    let noise = source.uniforms(96);
+    let machine: Vec<f64> = (0..96).map(|row| turns[row % 8]).collect();
+    let y = machine.iter().zip(&noise).map(|(machine, noise)| machine + noise).collect();
+    let hour = (0..96).map(|row| (row % 8) as f64).collect();
+    let found = Analyser::new(1).verdict(&table(vec![hour, machine, source.uniforms(96)], y)).unwrap();
+    assert!(!concerns(&found, Concern::Sequence) && concerns(&found, Concern::DependentInputs), "{found:?}");
+    assert!(found.certain.is_empty(), "{found:?}");
+}

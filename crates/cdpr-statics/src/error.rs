@@ -68,7 +68,7 @@ pub enum StaticsError {
         blocked: Vec<Blocked>,
     },
     /// No tensions near those of the pose before hold the next pose of a path.
-    #[error("within {} N of the tensions at the pose before: {source}; or make smaller steps", short(*change))]
+    #[error("within {} N of the tensions at the last pose that is held: {source}; or make smaller steps", short(*change))]
     TensionChange {
         /// Greatest change allowed [N].
         change: f64,

@@ -203,6 +203,9 @@ fn a_change_that_is_too_small_is_refused_and_the_path_goes_on() {
     let error = path.solve(Pose::at(1.0, 0.0, 1.75), &Load::none()).unwrap_err();
     let StaticsError::TensionChange { change, .. } = error else { panic!("{error}") };
     assert_eq!((change, error.kind()), (1.0, "infeasible_tension"));
-    assert!(error.to_string().starts_with("within 1 N of the tensions at the pose before: "), "{error}");
+    assert!(
+        error.to_string().starts_with("within 1 N of the tensions at the last pose that is held: "),
+        "{error}"
+    );
     assert!(path.solve(Pose::at(0.001, 0.0, 1.75), &Load::none()).is_ok());
 }

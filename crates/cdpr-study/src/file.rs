@@ -5,6 +5,7 @@ pub(crate) mod errors_file;
 pub(crate) mod grid;
 pub(crate) mod names;
 pub(crate) mod output;
+pub(crate) mod price;
 pub(crate) mod record;
 pub(crate) mod sensitivity_spec;
 pub(crate) mod study_file;

@@ -74,6 +74,7 @@ pub use file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve, law_jso
 pub use file::errors_file::{ERRORS_FORMAT, ErrorsFile, errors_schema};
 pub use file::grid::{GridAxis, GridSpec};
 pub use file::output::{AlongAxis, AmplitudeSpec, Output, VectorOutput};
+pub use file::price::{GradeSpec, PriceSpec};
 pub use file::record::{RecordTextError, open_record, read_record};
 pub use file::sensitivity_spec::SensitivitySpec;
 pub use file::study_file::{

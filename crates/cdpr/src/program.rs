@@ -113,6 +113,7 @@ enum Command {
     #[command(after_help = "Examples:
   cdpr safety cogiro --pose 0,0,2 --payload 100
   cdpr safety cogiro --pose 0,0,2 --with pairs
+  cdpr safety caroca --pose 0,0,1.75 --with permanent=1.35,variable=1.5,accidental=1,resistance=2
   cdpr safety data/robots/caroca.json --poses data/poses/caroca.csv > safety.csv")]
     Safety(pose::safety::Settings),
     /// Compute exact derivatives by every parameter.

@@ -29,7 +29,7 @@ const ODD: [&str; 19] = [
 ];
 
 /// Commands whose number in braces is replaced.
-const COMMANDS: [&str; 37] = [
+const COMMANDS: [&str; 38] = [
     "inverse caroca --pose 0,0,1.75 --payload {50}",
     "inverse caroca --pose 0,0,{1.75}",
     "inverse caroca --pose 0,0,1.75 --rpy {5},0,0",
@@ -53,6 +53,7 @@ const COMMANDS: [&str; 37] = [
     "capacity cogiro --pose 0,0,2 --payload {10}",
     "capacity cogiro --pose 0,0,2 --force=0,{10},0",
     "safety cogiro --pose 0,0,2 --payload {10}",
+    "safety caroca --pose 0,0,1.75 --with permanent={1.35},variable=1.5,accidental=1,resistance=2",
     "capacity ipanema-3 --pose 0.2,0.1,{1.3}",
     "hysteresis caroca-law --pose 0,0,1.75 --payload {50} --with steps=3",
     "hysteresis caroca-law --pose 0,0,{1.75} --payload 50 --with steps=3",

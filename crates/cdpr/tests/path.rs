@@ -34,7 +34,7 @@ fn rows_of(arguments: &[&str]) -> String {
     let (first, rest) = said.split_once('\n').unwrap();
     let tensions = if arguments.contains(&"--payload") { "unloaded at" } else { "tensions" };
     assert!(first.contains(&format!(" poses held, {tensions} ")) && first.len() <= 80, "{said}");
-    assert!(rest.is_empty(), "{said}");
+    assert!(rest.is_empty() || rest.starts_with("note: no frequencies: "), "{said}");
     text(output.stdout)
 }
 

@@ -79,3 +79,126 @@ fn the_table_begins_with_the_whole_robot_and_names_the_forces_that_its_factors_a
     let whole = printed.lines().find(|line| line.starts_with("│ none ")).unwrap();
     assert!(whole.contains(&format!(" {:.1} ", 600.0 / greatest)), "{whole}");
 }
+
+/// A point mass of 10 kg on four cables of this breaking force.
+fn strong_point(folder: &TempDir, force: &str) -> String {
+    let robot = point_mass(folder, &FOUR, false);
+    let strong = std::fs::read_to_string(&robot).unwrap();
+    let strong = strong.replace("\"section\"", &format!("\"breaking_force\":{force},\"section\""));
+    std::fs::write(&robot, strong).unwrap();
+    robot
+}
+
+const FACTORS: &str = "permanent=1.35,variable=1.5,resistance=1.5,accidental=1.0";
+
+#[test]
+fn partial_factors_have_a_verdict_with_the_worst_case() {
+    let folder = TempDir::new().unwrap();
+    let robot = strong_point(&folder, "600");
+    let call = ["safety", &robot, "--pose", "0,0,1", "--payload", "2", "--with", FACTORS];
+    let (within, printed) = (answer(&call), cdpr(&call));
+    assert_eq!(printed.status.code(), Some(0), "{}", text(printed.stderr));
+    let printed = text(printed.stdout).replace('\n', " ");
+    let proof = &within["proof"];
+    assert_eq!((&proof["verdict"], proof["cases"].as_array().unwrap().len()), (&json!("within"), 5));
+    let most = proof["utilization"].as_f64().unwrap();
+    assert!(printed.starts_with("Point mass at (0, 0, 1) m is within its design resistance"), "{printed}");
+    assert!(printed.contains(&format!("utilization at most {most:.3}, of cable ")), "{printed}");
+    // Where accidental loads are not multiplied, the rests are those without factors.
+    for (case, broken) in
+        proof["cases"].as_array().unwrap()[1..].iter().zip(within["broken"].as_array().unwrap())
+    {
+        let factor = broken["safety_factor"].as_f64().unwrap();
+        let expected = 1.5 / factor;
+        assert!((case["utilization"].as_f64().unwrap() / expected - 1.0).abs() < 1e-12, "{case}");
+        assert_eq!(case["moved"], broken["moved"]);
+        assert_eq!((&case["permanent"], &case["resistance"]), (&json!(1.0), &json!(1.5)));
+    }
+    // The weak cables of another robot are not within theirs.
+    let robot = strong_point(&folder, "60");
+    let call = ["safety", &robot, "--pose", "0,0,1", "--payload", "2", "--with", FACTORS];
+    let weak = cdpr(&call);
+    assert_eq!(weak.status.code(), Some(3));
+    let printed = text(weak.stdout).replace('\n', " ");
+    assert!(printed.contains("exceeds its design resistance: utilization "), "{printed}");
+    let robot = point_mass(&folder, &FOUR, false);
+    let unknown = cdpr(&["safety", &robot, "--pose", "0,0,1", "--with", FACTORS]);
+    assert_eq!(unknown.status.code(), Some(3));
+    let printed = text(unknown.stdout).replace('\n', " ");
+    let expected = "whether it is within its design resistance is not known; no cable has a breaking_force.";
+    assert!(printed.contains(expected) && !printed.contains("The others are within it"), "{printed}");
+    let robot = strong_point(&folder, "600");
+    let mut one_unknown: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(&robot).unwrap()).unwrap();
+    one_unknown["cables"][0]["cable"] = one_unknown["cable"].clone();
+    one_unknown["cables"][0]["cable"].as_object_mut().unwrap().remove("breaking_force");
+    std::fs::write(&robot, one_unknown.to_string()).unwrap();
+    let printed = text(cdpr(&["safety", &robot, "--pose", "0,0,1", "--with", FACTORS]).stdout);
+    let printed = printed.replace('\n', " ");
+    assert!(printed.contains("with all cables: cable 1 has no breaking_force."), "{printed}");
+    assert!(printed.contains("The others are within it: at most 0."), "{printed}");
+}
+
+#[test]
+fn factors_come_together_and_are_plausible() {
+    let folder = TempDir::new().unwrap();
+    let robot = strong_point(&folder, "600");
+    for (with, expected) in [
+        ("permanent=1.35,variable=1.5", "expected resistance=FACTOR, accidental=FACTOR, too"),
+        (
+            "permanent=135,variable=1.5,resistance=1.5,accidental=1",
+            "factors.persistent.permanent is 135: expected a factor from 0.1 to 10",
+        ),
+        (
+            "permanent=1.35,variable=1.5,resistance=x,accidental=1",
+            "--with resistance=x: expected a number or two, such as 1.5 or 1.5:1.2",
+        ),
+    ] {
+        let refused = cdpr(&["safety", &robot, "--pose", "0,0,1", "--with", with]);
+        let said = unwrapped(refused.stderr);
+        assert!(refused.status.code() == Some(2) && said.contains(expected), "{said}");
+    }
+}
+
+#[test]
+fn the_table_of_a_pose_has_a_row_for_each_case_with_all_that_is_known() {
+    let folder = TempDir::new().unwrap();
+    let robot = strong_point(&folder, "600");
+    let table = |more: &[&str]| -> Vec<Vec<String>> {
+        let call =
+            [&["safety", &robot, "--pose", "0,0,1", "--payload", "2", "--format", "csv"], more].concat();
+        let printed = text(cdpr(&call).stdout);
+        let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(printed.as_bytes());
+        reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect()
+    };
+    let with = format!("{FACTORS},pairs,swing=0.01");
+    let (plain, factored) = (table(&[]), table(&["--with", &with]));
+    assert_eq!((plain.len(), factored.len()), (1 + 1 + 4, 1 + 1 + 4 + 6));
+    let cell = |rows: &[Vec<String>], row: usize, name: &str| {
+        let column = rows[0].iter().position(|own| own == name).unwrap_or_else(|| panic!("{name}"));
+        rows[row][column].clone()
+    };
+    let number = |rows: &[Vec<String>], row: usize, name: &str| -> f64 {
+        cell(rows, row, name).parse().unwrap_or_else(|_| panic!("{name}: {:?}", rows[row]))
+    };
+    assert_eq!(cell(&plain, 1, "case"), "intact");
+    for row in 1..plain.len() {
+        // Without factors the utilization is that of the safety factor, and there is no verdict.
+        let product = number(&plain, row, "utilization") * number(&plain, row, "safety_factor");
+        assert!((product - 1.0).abs() < 1e-12 && cell(&plain, row, "verdict").is_empty());
+        assert_eq!(number(&plain, row, "breaking_force_n"), 600.0);
+        assert_eq!(cell(&plain, row, "permanent"), "1.0");
+        assert_eq!(cell(&factored, row, "verdict"), "within");
+        assert_eq!(number(&factored, row, "design_resistance_n"), 400.0);
+        let tension = number(&factored, row, "tension_n");
+        assert!((number(&factored, row, "utilization") - tension / 400.0).abs() < 1e-12);
+        assert_eq!(cell(&factored, row, "ending"), "held");
+    }
+    assert_eq!([cell(&factored, 2, "broken"), cell(&factored, 6, "broken")], ["1", "1+2"]);
+    assert!(number(&factored, 2, "peak_tension_n") > 0.0 && number(&factored, 2, "swing_moved_m") > 0.0);
+    let windy = table(&["--with", &format!("{FACTORS},wind=20")]);
+    let last = windy.len() - 1;
+    assert_eq!(cell(&windy, last, "case"), "weather");
+    assert!((0.0..360.0).contains(&number(&windy, last, "wind_towards_deg")));
+    assert!(number(&windy, last, "utilization") > number(&windy, 1, "utilization"));
+}

@@ -1,5 +1,6 @@
 //! What is observed of a robot at the poses of a design, with derivatives by the variables.
 
+use crate::design::at_rest::AtRest;
 use crate::design::file::Over;
 use crate::design::goal::{Goal, sense};
 use crate::design::problem::DesignProblem;
@@ -47,23 +48,27 @@ impl DesignProblem {
         let mut positions = positions.into_iter();
         let mut found = Evaluation::default();
         let none = Load::none();
-        let solved = if self.free.is_empty() { inverse(&robot, &self.poses, &none) } else { Vec::new() };
-        let mut solved = solved.into_iter();
+        let mut solved = if self.free.is_empty() { inverse(&robot, &self.poses, &none) } else { Vec::new() };
+        let in_lanes = step.is_none() && self.is_for_lanes(&robot);
+        let loaded = if in_lanes { self.loaded(&robot, std::mem::take(&mut solved))? } else { Vec::new() };
+        let (mut solved, mut loaded) = (solved.into_iter(), loaded.into_iter());
         let at_exits = (0..robot.cables.len()).any(|i| !robot.max_at(i).is_anchor());
         let needs_exits = self.needs(Goal::Tension) || (self.tensions_each() > 0 && at_exits);
         for pose in &self.poses {
             let wanted = WantedPose::at(pose).free(&self.free);
-            let (deflection, slopes) = match (solved.next().transpose()?, step.is_some()) {
-                (Some(held), true) => sloped(derivatives_from(&robot, wanted, &self.load, held)?),
-                (None, true) => sloped(derivatives(&robot, wanted, &self.load)?),
-                (Some(held), false) => {
-                    (deflection_from(&robot, held.lengths, &self.load, &held.equilibrium)?, None)
+            let alone = |found: Deflection| (AtRest::Alone(Box::new(found)), None);
+            let (rest, slopes) = match (loaded.next(), solved.next().transpose()?, step.is_some()) {
+                (Some(rest), ..) => (rest, None),
+                (None, Some(held), true) => sloped(derivatives_from(&robot, wanted, &self.load, held)?),
+                (None, None, true) => sloped(derivatives(&robot, wanted, &self.load)?),
+                (None, Some(held), false) => {
+                    alone(deflection_from(&robot, held.lengths, &self.load, &held.equilibrium)?)
                 }
-                (None, false) => (deflection(&robot, wanted, &self.load)?, None),
+                (None, None, false) => alone(deflection(&robot, wanted, &self.load)?),
             };
             let position = positions.next();
             let exits = Vec::new();
-            let mut at = AtPose { problem: self, robot: &robot, deflection, slopes, exits, position };
+            let mut at = AtPose { problem: self, robot: &robot, rest, slopes, exits, position };
             if needs_exits {
                 at.exits = at.exit_tensions()?;
             }
@@ -135,15 +140,15 @@ fn total(quantities: &[Quantity], factors: &[f64]) -> Quantity {
     Quantity { value: sum(&|q| q.value), slopes: (0..count).map(|j| sum(&|q| q.slopes[j])).collect() }
 }
 
-fn sloped(found: Derivatives) -> (Deflection, Option<Derivatives>) {
-    (found.deflection.clone(), Some(found))
+fn sloped(found: Derivatives) -> (AtRest, Option<Derivatives>) {
+    (AtRest::Alone(Box::new(found.deflection.clone())), Some(found))
 }
 
 /// A robot at a pose, with derivatives or without.
 struct AtPose<'a> {
     problem: &'a DesignProblem,
     robot: &'a Robot,
-    deflection: Deflection,
+    rest: AtRest,
     slopes: Option<Derivatives>,
     /// Tensions at the exit points under the load [N], where they are needed.
     exits: Vec<Quantity>,
@@ -166,9 +171,8 @@ impl AtPose<'_> {
 
     /// An output in its unit.
     fn output(&self, of: Goal) -> Result<Quantity, StaticsError> {
-        let Self { problem: DesignProblem { load, characteristic_length, .. }, robot, deflection, .. } = self;
-        let at_rest = || DirectProblem::new(robot, &deflection.lengths, load);
-        let rest = &deflection.loaded.equilibrium;
+        let Self { problem: DesignProblem { load, characteristic_length, .. }, robot, rest, .. } = self;
+        let problem = || DirectProblem::new(robot, rest.lengths(), load);
         let missing = || StaticsError::NoDerivative { quantity: of.noun(), reason: "it is not observed" };
         Ok(match (of, &self.slopes) {
             (Goal::Tension, _) => {
@@ -179,28 +183,36 @@ impl AtPose<'_> {
             (Goal::Position | Goal::Length | Goal::Cost | Goal::Amplitude, _) => {
                 self.position.clone().ok_or_else(missing)?
             }
-            (Goal::Deflection, None) => self.quantity(1e3 * deflection.magnitude(), &[]),
+            (Goal::Deflection, None) => self.quantity(1e3 * rest.magnitude(), &[]),
             (Goal::Deflection, Some(found)) => {
-                self.quantity(deflection.magnitude(), &found.magnitude()?).scaled(1e3, 0.0)
+                self.quantity(rest.magnitude(), &found.magnitude()?).scaled(1e3, 0.0)
             }
             (Goal::Stiffness, None) => {
-                let stability =
-                    at_rest()?.with_characteristic_length(*characteristic_length).stability(rest)?;
-                self.quantity(stability.least_stiffness(), &[])
+                let least = match rest {
+                    AtRest::Lanes(_, found) => found.least_stiffness,
+                    AtRest::Alone(found) => problem()?
+                        .with_characteristic_length(*characteristic_length)
+                        .stability(&found.loaded.equilibrium)?
+                        .least_stiffness(),
+                };
+                self.quantity(least, &[])
             }
             (Goal::Stiffness, Some(found)) => {
                 let (value, slopes) = found.least_stiffness_with(robot, load, *characteristic_length)?;
                 self.quantity(value, &slopes)
             }
             (Goal::Frequency, None) => {
-                let modes = Modes::slowest(&at_rest()?, rest)?;
+                let modes = Modes::slowest(&problem()?, rest.equilibrium().ok_or_else(missing)?)?;
                 self.quantity(modes.lowest().map_or(0.0, |mode| mode.frequency), &[])
             }
             (Goal::Frequency, Some(found)) => {
                 let lowest = FrequencyDerivatives::lowest_of_deflection(robot, load, found)?;
                 self.quantity(lowest.frequency, &lowest.with_lengths(&found.lengths))
             }
-            (Goal::PlatformFrequency, None) => self.quantity(Swing::new(&at_rest()?, rest)?.platform, &[]),
+            (Goal::PlatformFrequency, None) => {
+                let at = rest.equilibrium().ok_or_else(missing)?;
+                self.quantity(Swing::new(&problem()?, at)?.platform, &[])
+            }
             (Goal::PlatformFrequency, Some(found)) => {
                 let of = FrequencyDerivatives::of_deflection(robot, load, found)?;
                 self.quantity(of.frequency, &of.with_lengths(&found.lengths))
@@ -210,7 +222,7 @@ impl AtPose<'_> {
 
     /// Keeps the greatest length of each cable.
     fn lengthen(&self, longest: &mut Vec<Quantity>) {
-        for (i, length) in self.deflection.lengths.iter().enumerate() {
+        for (i, length) in self.rest.lengths().iter().enumerate() {
             let row =
                 self.slopes.as_ref().map_or_else(Vec::new, |of| of.lengths.row(i).iter().copied().collect());
             let length = self.quantity(*length, &row);
@@ -224,8 +236,8 @@ impl AtPose<'_> {
 
     /// Adds by how much the greatest tension of each cable is passed under the load.
     fn tensions(&self, excesses: &mut Vec<Quantity>) {
-        let Self { robot, deflection, slopes, .. } = self;
-        for (i, anchor) in deflection.loaded.equilibrium.tensions().into_iter().enumerate() {
+        let Self { robot, rest, slopes, .. } = self;
+        for (i, anchor) in rest.tensions().into_iter().enumerate() {
             let tension = match (&slopes, robot.max_at(i).is_anchor()) {
                 (_, false) => self.exits[i].clone(),
                 (None, true) => self.quantity(anchor, &[]),
@@ -240,14 +252,13 @@ impl AtPose<'_> {
 
     /// The tensions at the exit points under the load [N].
     fn exit_tensions(&self) -> Result<Vec<Quantity>, StaticsError> {
-        let Self { robot, deflection, slopes, problem, .. } = self;
-        let rest = &deflection.loaded.equilibrium;
-        let tensions = rest.exit_tensions(robot, &deflection.lengths);
+        let Self { robot, rest, slopes, problem, .. } = self;
+        let tensions = rest.exit_tensions(robot);
         let Some(found) = slopes else {
             return Ok(tensions.into_iter().map(|tension| self.quantity(tension, &[])).collect());
         };
-        let at_rest = DirectProblem::new(robot, &deflection.lengths, &problem.load)?;
-        let exits = at_rest.force_derivatives(rest, CableEnd::Exit)?;
+        let at_rest = DirectProblem::new(robot, rest.lengths(), &problem.load)?;
+        let exits = at_rest.force_derivatives(&found.deflection.loaded.equilibrium, CableEnd::Exit)?;
         let (count, n) = (found.inputs.count(), robot.cables.len());
         let of = |(i, tension): (usize, f64)| {
             // The lengths follow the parameters.

@@ -4,11 +4,13 @@ use crate::design::cables::{CableType, ChosenCable, type_at, types};
 use crate::design::file::{DESIGN_FORMAT, DesignFile, LimitsSpec, Over};
 use crate::design::goal::Goal;
 use crate::design::variable::{Domain, Variable, variables, with, wrong};
-use cdpr_robot::{Coordinate, Parameter, Pose, Robot, RobotError, Vector6, Wrench, from_json};
+use cdpr_robot::{Coordinate, Parameter, Pose, Robot, RobotError, Vector6, Wrench, from_json, significant};
 use cdpr_statics::Load;
 use cdpr_study::{ErrorModel, InField, InputKind, StudyError, error_model, other_kind, read_text};
+use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::time::Instant;
 
 /// Step of differences, as a share of the range between the bounds.
 pub(crate) const STEP: f64 = 1e-4;
@@ -16,8 +18,11 @@ pub(crate) const STEP: f64 = 1e-4;
 const MOST_POINTS: usize = 1000;
 /// Poses of a design.
 const MOST_POSES: usize = 10_000;
-/// Configurations of the choices, each with all starts of the local search where something has bounds.
-pub(crate) const MOST_CONFIGURATIONS: usize = 100_000;
+/// Configurations of the choices, each with all starts of the local search where something has bounds, and
+/// of a front.
+const MOST_SEARCHES: usize = 100_000;
+/// The same of choices alone.
+const MOST_CONFIGURATIONS: usize = 1_000_000;
 
 /// A robot, what of it may change, and what is to be as good as possible.
 #[derive(Clone, Debug)]
@@ -208,15 +213,56 @@ impl DesignProblem {
             );
             return wrong("free", format!("[{}]", names.join(", ")), expected);
         }
-        let searches = self.configurations().and_then(|count| count.checked_mul(self.searches_each()));
-        if self.starts == 0 || searches.is_none_or(|count| count > MOST_CONFIGURATIONS) {
-            let expected = format!(
-                "1 or more, and with the choices at most {MOST_CONFIGURATIONS} configurations (times the starts, \
-                 where something has bounds)"
-            );
+        if self.starts == 0 {
+            return wrong("starts", self.starts, "1 or more");
+        }
+        self.check_configurations()
+    }
+
+    /// Refuses more configurations than are evaluated, with the time that all of them would take.
+    fn check_configurations(&self) -> Result<(), InField> {
+        let is_alone = self.bounded().next().is_none() && self.second.is_none();
+        let (each, most) = (self.searches_each(), if is_alone { MOST_CONFIGURATIONS } else { MOST_SEARCHES });
+        let configurations = self.configurations();
+        if configurations.and_then(|count| count.checked_mul(each)).is_some_and(|count| count <= most) {
+            return Ok(());
+        }
+        if configurations == Some(1) {
+            let expected = format!("1 or more, and at most {most} configurations with all starts");
             return wrong("starts", self.starts, expected);
         }
-        Ok(())
+        let each = if each == 1 { String::new() } else { format!(" with {each} starts in each") };
+        let count = self.variables.iter().map(|of| of.count() as f64).product::<f64>();
+        let number = configurations.map_or_else(|| significant(count, 4), |count| count.to_string());
+        let value = format!("{number} configurations{each}");
+        let seconds = self.pace() * count;
+        let time = if seconds < 3600.0 {
+            format!("{} s", significant(seconds, 2))
+        } else {
+            format!("{} h", significant(seconds / 3600.0, 2))
+        };
+        let expected = format!(
+            "choices with at most {most} configurations (with bounds or a second objective {MOST_SEARCHES}, \
+             times the starts); to evaluate each of these once would take about {time} here"
+        );
+        wrong("variables", value, expected)
+    }
+
+    /// Seconds for each configuration, by some all over the choices.
+    fn pace(&self) -> f64 {
+        /// Configurations that are tried, and a time after which no more are [s].
+        const TRIED: usize = 256;
+        const ENOUGH: f64 = 0.3;
+        let (clock, mut tried) = (Instant::now(), 0);
+        while tried < TRIED && clock.elapsed().as_secs_f64() < ENOUGH {
+            (tried..tried + 16).into_par_iter().for_each(|k| {
+                let value = |(j, of): (usize, &Variable)| of.choice(k * (2 * j + 1) + k / of.count());
+                let values: Vec<f64> = self.variables.iter().enumerate().map(value).collect();
+                let _ = self.evaluate(&values, None);
+            });
+            tried += 16;
+        }
+        clock.elapsed().as_secs_f64() / tried as f64
     }
 
     /// Whether this is the objective or limited.
@@ -236,10 +282,7 @@ impl DesignProblem {
 
     /// Number of combinations of the choices; 1 without any, `None` where it is beyond all bounds.
     pub(crate) fn configurations(&self) -> Option<usize> {
-        self.variables.iter().try_fold(1_usize, |count, variable| match &variable.domain {
-            Domain::Bounds(_) => Some(count),
-            Domain::Choices(values) => count.checked_mul(values.len()),
-        })
+        self.variables.iter().try_fold(1_usize, |count, variable| count.checked_mul(variable.count()))
     }
 
     /// Local searches, or single evaluations, of each configuration.
@@ -249,13 +292,10 @@ impl DesignProblem {
 
     /// The values of a configuration; variables with bounds have the value that is nearest to the robot's.
     pub(crate) fn configuration(&self, mut number: usize) -> Vec<f64> {
-        let of = |variable: &Variable| match &variable.domain {
-            Domain::Bounds([low, high]) => variable.nominal.clamp(*low, *high),
-            Domain::Choices(values) => {
-                let value = values[number % values.len()];
-                number /= values.len();
-                value
-            }
+        let of = |variable: &Variable| {
+            let value = variable.choice(number);
+            number /= variable.count();
+            value
         };
         self.variables.iter().map(of).collect()
     }

@@ -2,9 +2,10 @@
 
 use crate::design::demand::Demand;
 use crate::design::evaluation::{Evaluation, greatest_tension};
+use crate::design::exhaustive::{Exhausted, exhausted, single};
 use crate::design::goal::sense;
 use crate::design::problem::{DesignProblem, STEP};
-use crate::design::search::{Found, MET, Search, excess, objective};
+use crate::design::search::{Found, MET, Search};
 use cdpr_robot::{Pose, significant};
 use cdpr_sensitivity::Sobol;
 use cdpr_study::StudyError;
@@ -20,6 +21,8 @@ pub(crate) struct Searched {
     pub(crate) found: Vec<Option<Found>>,
     /// Evaluations of a robot at all poses.
     pub(crate) evaluations: usize,
+    /// Configurations that are proven to be worse than the two best ones, and left.
+    pub(crate) left: usize,
 }
 
 impl Searched {
@@ -29,29 +32,25 @@ impl Searched {
     /// [`StudyError::Setting`] for more variables than Sobol's sequence has dimensions.
     pub(crate) fn of(problem: &DesignProblem, further: &[Vec<f64>]) -> Result<Self, StudyError> {
         let starts = starts(problem, further)?;
-        let each = starts.as_ref().map_or(1, Vec::len);
-        let run = |number: usize| {
-            let values = problem.configuration(number / each);
-            match &starts {
-                Some(starts) => {
-                    let start = &starts[number % each];
-                    let (found, evaluations) = Search::run(problem, values.clone(), start.clone());
-                    // A robot that is held without derivatives counts, but no search goes on from it.
-                    let alone = || {
-                        Some(Found {
-                            residual: f64::INFINITY,
-                            ..single(problem, placed(problem, values, start))?
-                        })
-                    };
-                    (found.or_else(alone), evaluations)
-                }
-                None => (single(problem, values), 1),
-            }
+        let configurations = problem.configurations().unwrap_or(0);
+        let Some(starts) = starts else {
+            let Exhausted { found, evaluations, left } = exhausted(problem, configurations);
+            return Ok(Self { starts: 0, each: 1, found, evaluations, left });
         };
-        let count = problem.configurations().unwrap_or(0) * each;
-        let (found, evaluations): (Vec<_>, Vec<usize>) = (0..count).into_par_iter().map(run).unzip();
+        let each = starts.len();
+        let run = |number: usize| {
+            let (values, start) = (problem.configuration(number / each), &starts[number % each]);
+            let (found, evaluations) = Search::run(problem, values.clone(), start.clone());
+            // A robot that is held without derivatives counts, but no search goes on from it.
+            let alone = || {
+                Some(Found { residual: f64::INFINITY, ..single(problem, placed(problem, values, start))? })
+            };
+            (found.or_else(alone), evaluations)
+        };
+        let (found, evaluations): (Vec<_>, Vec<usize>) =
+            (0..configurations * each).into_par_iter().map(run).unzip();
         let evaluations = evaluations.iter().sum();
-        Ok(Self { starts: starts.map_or(0, |starts| starts.len()), each, found, evaluations })
+        Ok(Self { starts: each, each, found, evaluations, left: 0 })
     }
 
     /// The ends that meet all demands, with their numbers.
@@ -145,13 +144,4 @@ fn placed(problem: &DesignProblem, mut values: Vec<f64>, start: &[f64]) -> Vec<f
         values[j] = low * (1.0 - u) + high * u;
     }
     values
-}
-
-/// A robot alone, without derivatives.
-fn single(problem: &DesignProblem, values: Vec<f64>) -> Option<Found> {
-    let at = problem.evaluate(&values, None).ok()?;
-    let objective = objective(problem.over, &at.outputs, sense(problem.output));
-    let excess = excess(&at);
-    let (gradient, active) = (Vec::new(), Vec::new());
-    Some(Found { values, objective, excess, residual: 0.0, gradient_error: None, gradient, active })
 }

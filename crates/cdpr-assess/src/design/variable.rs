@@ -25,6 +25,24 @@ pub(crate) enum Domain {
     Choices(Vec<f64>),
 }
 
+impl Variable {
+    /// Number of its choices; 1 within bounds.
+    pub(crate) fn count(&self) -> usize {
+        match &self.domain {
+            Domain::Bounds(_) => 1,
+            Domain::Choices(values) => values.len(),
+        }
+    }
+
+    /// One of its choices, counted over and over; within bounds the value that is nearest to the robot's.
+    pub(crate) fn choice(&self, number: usize) -> f64 {
+        match &self.domain {
+            Domain::Bounds([low, high]) => self.nominal.clamp(*low, *high),
+            Domain::Choices(values) => values[number % values.len()],
+        }
+    }
+}
+
 /// The robot with other values of some variables.
 pub(crate) fn with<'a>(
     robot: &Robot,

@@ -52,7 +52,7 @@ pub struct InWind {
     /// force is known.
     pub safety_factor: Option<(f64, usize)>,
     /// Greatest tension over what the cable may bear, its limit or its breaking force.
-    pub utilization: f64,
+    pub share_of_limit: f64,
     /// Whether P or an anchor point is below `ground_z`, or, where the file has none, below what robots stand
     /// on.
     pub below_ground: bool,
@@ -125,10 +125,20 @@ pub fn winds(
     [at, from]: [&Pose; 2],
     question: &AnyWeather,
 ) -> Result<Winds, StaticsError> {
+    let changed = question.weather.robot(robot)?;
+    winds_upon(&changed, &question.weather.lengths(lengths), load, [at, from], question)
+}
+
+/// The same for a robot and lengths as the weather has made them.
+pub(super) fn winds_upon(
+    robot: &Robot,
+    lengths: &[f64],
+    load: &Load,
+    [at, from]: [&Pose; 2],
+    question: &AnyWeather,
+) -> Result<Winds, StaticsError> {
     let AnyWeather { weather, speed } = question;
-    let changed = weather.robot(robot)?;
-    let lengths = weather.lengths(lengths);
-    let problem = DirectProblem::new(&changed, &lengths, load)?;
+    let problem = DirectProblem::new(robot, lengths, load)?;
     let calm = problem.direct(DirectStart::Pose(at))?;
     let blown = Blown { problem: &problem, calm: &calm, from };
     let Some(speed) = *speed else {
@@ -167,7 +177,7 @@ const MEASURES: [fn(&InWind) -> f64; 4] = [
     InWind::moved,
     |one| one.greatest_tension().0,
     |one| -one.rest.tensions().into_iter().fold(f64::INFINITY, f64::min),
-    |one| one.utilization,
+    |one| one.share_of_limit,
 ];
 
 /// How bad a wind is by a measure.
@@ -253,7 +263,7 @@ impl Blown<'_> {
             turned: before.angle_to(&after),
             out_of_limits: tensions_out_of_limits(robot, std::slice::from_ref(&ends)),
             safety_factor: safety_factor(robot, &all, &ends),
-            utilization: utilization(robot, &ends),
+            share_of_limit: share_of_limit(robot, &ends),
             below_ground: is_below_floor(robot, self.from, &rest.pose),
             rest,
         })
@@ -261,7 +271,7 @@ impl Blown<'_> {
 }
 
 /// Greatest tension over limit or breaking force of all cables.
-fn utilization(robot: &Robot, tensions: &[[f64; 2]]) -> f64 {
+fn share_of_limit(robot: &Robot, tensions: &[[f64; 2]]) -> f64 {
     let of_cable = |(i, [anchor, exit]): (usize, &[f64; 2])| {
         let limited = if robot.max_at(i).is_anchor() { *anchor } else { *exit };
         let breaking = robot.cables[i].properties.breaking_force.unwrap_or(f64::INFINITY);

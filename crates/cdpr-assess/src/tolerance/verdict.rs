@@ -17,17 +17,19 @@ impl ToleranceBudget {
             let [value, low, high] = [of.within.value, of.within.low, of.within.high].map(percent);
             format!("{value} % ({low} to {high})")
         };
-        let tightened = self.tolerances.iter().filter(|of| of.factor < 1.0);
-        let tightened: Vec<String> =
-            tightened.map(|of| format!("{} to {} %", of.name, percent(of.factor))).collect();
-        let mut sentences = if tightened.is_empty() {
+        let tightened = self.tolerances.iter().filter(|of| of.factor < 1.0 && of.by != Some("calibration"));
+        let tightened =
+            Vec::from_iter(tightened.map(|of| format!("{} to {} %", of.name, percent(of.factor))));
+        let calibrated = self.calibrations.iter().filter(|of| of.bought);
+        let calibrated = Vec::from_iter(calibrated.map(|of| of.name.clone()));
+        let mut sentences = if tightened.is_empty() && calibrated.is_empty() {
             vec![
                 format!("The tolerances suffice: nothing has to be tightened for {wanted} % of the robots."),
                 format!("{} of {} robots keep the {of} of {limit} mm.", reached(&self.now), self.now.robots),
             ]
         } else {
             vec![
-                listing(&format!("For {wanted} % below {limit} mm, tighten the width of "), &tightened, "."),
+                self.advice(wanted, &tightened, &calibrated),
                 format!(
                     "Then {} of the robots keep it, now {}.",
                     reached(&self.tightened),
@@ -35,7 +37,7 @@ impl ToleranceBudget {
                 ),
             ]
         };
-        let last = if tightened.is_empty() { &self.now } else { &self.tightened };
+        let last = if tightened.is_empty() && calibrated.is_empty() { &self.now } else { &self.tightened };
         if last.within.high < self.quantile {
             let lower = 2.0 * limit - last.quantile_mm.value;
             let lower = significant(lower, 4);
@@ -50,5 +52,20 @@ impl ToleranceBudget {
         let little = little_explained(self.explained);
         sentences.extend(little.map(|little| format!("{little}: trust the counted robots, not the shares.")));
         sentences
+    }
+
+    /// What to do.
+    fn advice(&self, wanted: f64, tightened: &[String], calibrated: &[String]) -> String {
+        let limit = self.limit_mm;
+        if !self.priced {
+            let before = format!("For {wanted} % below {limit} mm, tighten the width of ");
+            return listing(&before, tightened, ".");
+        }
+        let cost = significant(self.cost[1] - self.cost[0], 4);
+        let before = format!("For {wanted} % below {limit} mm spend {cost}: ");
+        let mut steps = Vec::from_iter(calibrated.iter().map(|name| format!("do {name}")));
+        let tighten = tightened.iter().enumerate();
+        steps.extend(tighten.map(|(k, of)| if k == 0 { format!("tighten {of}") } else { of.clone() }));
+        listing(&before, &steps, ".")
     }
 }

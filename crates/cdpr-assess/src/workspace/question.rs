@@ -1,6 +1,7 @@
 //! What is asked about the positions of a grid.
 
 use crate::capacity::WrenchSet;
+use crate::safety::factors::PartialFactors;
 use crate::safety::winds::AnyWeather;
 use cdpr_dynamics::Damping;
 use cdpr_robot::{Coordinate, Robot, Rotation3, Vector3};
@@ -40,6 +41,9 @@ pub struct Further<'a> {
     pub shaking: Option<Shaking>,
     /// How far weather and load displace the platform, the lengths kept.
     pub weather: Option<AnyWeather>,
+    /// Utilizations by these factors, with all cables, each of them broken and in the weather, the winches
+    /// holding each position under the load.
+    pub breaks: Option<PartialFactors>,
 }
 
 /// What shakes the platform, and what damps its cables.
@@ -140,6 +144,9 @@ pub(super) fn check(workspace: &Workspace) -> Result<(), StudyError> {
         model.check(robot)?;
     }
     further.shaking.as_ref().map_or(Ok(()), Shaking::check)?;
+    if let Some(Err(error)) = further.breaks.as_ref().map(PartialFactors::check) {
+        return Err(StudyError::setting("breaks", error, "factors of a norm"));
+    }
     if further.tilt.is_some() && !free.is_empty() {
         let named = free.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
         let expected = "no tilt, because the platform with free coordinates tilts as it rests";

@@ -4,6 +4,7 @@ use crate::capacity::Capacity;
 use crate::clearance::Clearance;
 use crate::safety::winds::Winds;
 use crate::tilt::Tilt;
+use crate::workspace::breaks::AfterBreaks;
 use cdpr_dynamics::{LargestInBand, Swing};
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::StaticsError;
@@ -33,6 +34,8 @@ pub struct WorkspacePose {
     /// Where it rests in the weather and under the load, the lengths kept, if asked for; `None` where it is
     /// not held.
     pub weather: Option<Box<Result<Winds, StaticsError>>>,
+    /// What becomes of it when cables break, the winches holding it under the load, if asked for.
+    pub breaks: Option<Box<Result<AfterBreaks, StaticsError>>>,
 }
 
 /// Tensions within the limits that hold a pose under the load.

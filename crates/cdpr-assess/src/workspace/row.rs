@@ -2,7 +2,9 @@
 
 use crate::capacity::{Capacity, Figure};
 use crate::clearance::CableDistance;
+use crate::safety::factored::Situation;
 use crate::safety::winds::Winds;
+use crate::workspace::breaks::AfterBreaks;
 use crate::workspace::question::Workspace;
 use crate::workspace::results::{Dominant, HELD, WorkspacePose};
 use cdpr_statics::limits::OutOfLimits;
@@ -11,7 +13,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// A row of `workspace.csv`, and an element of each column of `workspace.json`: positions [m], deflection
 /// [mm], tensions [N], stiffness [N/m], frequencies [Hz]. Values that do not exist are empty.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 #[allow(missing_docs)]
 pub struct WorkspaceRow {
     pub x_m: f64,
@@ -92,11 +94,46 @@ pub struct WorkspaceRow {
     pub weather_greatest_tension: Option<f64>,
     /// What is wrong in the weather, in words: a wind without a rest, tensions out of limits.
     pub weather_reason: Option<String>,
+    /// Greatest utilization of a cable by the factors that are given, or greatest tension over breaking force:
+    /// with all cables, each of them broken alone, and in the weather.
+    pub utilization: Option<f64>,
+    /// The number of this cable, from 1.
+    pub utilization_cable: Option<usize>,
+    /// `intact`, `weather`, or the number of the broken cable.
+    pub utilization_case: Option<String>,
+    /// How far the platform moves after the break that moves it farthest.
+    pub break_mm: Option<f64>,
+    /// The number of the cable that breaks then.
+    pub break_cable: Option<String>,
+    /// Why the utilization of a case is not known, in words.
+    pub break_reason: Option<String>,
 }
 
 impl WorkspaceRow {
     /// The row of a pose and its result.
     pub fn new(workspace: &Workspace, pose: &WorkspacePose) -> Self {
+        let [moved, azimuth, least, greatest] = in_weather(pose);
+        let breaks = pose.breaks.as_deref().and_then(|breaks| breaks.as_ref().ok());
+        let most = breaks.and_then(|breaks| breaks.utilization.as_ref());
+        let farthest = breaks.and_then(|breaks| breaks.farthest.as_ref());
+        Self {
+            weather_mm: moved,
+            weather_azimuth_deg: azimuth,
+            weather_least_tension: least,
+            weather_greatest_tension: greatest,
+            weather_reason: pose.weather.as_deref().and_then(wrong_in_weather),
+            utilization: most.map(|(most, _)| most.value()),
+            utilization_cable: most.map(|(most, _)| most.cable + 1),
+            utilization_case: most.map(|(_, situation)| case_name(situation)),
+            break_mm: farthest.map(|(moved, _)| 1e3 * moved),
+            break_cable: farthest.map(|(_, cables)| joined(cables)),
+            break_reason: pose.breaks.as_deref().and_then(open_after_breaks),
+            ..Self::in_calm(workspace, pose)
+        }
+    }
+
+    /// The row without what weather and breaks make of the pose.
+    fn in_calm(workspace: &Workspace, pose: &WorkspacePose) -> Self {
         let [x, y, z] = pose.pose.position.into();
         let held = pose.outcome.as_ref().ok();
         let loaded = held.filter(|_| workspace.load != Load::none());
@@ -116,7 +153,6 @@ impl WorkspaceRow {
         let tilt = pose.tilt.as_deref().and_then(|tilt| tilt.as_ref().ok()?.least());
         let shaken = pose.shaken.as_deref();
         let shaken_by = shaken.and_then(|shaken| shaken.as_ref().ok());
-        let [moved, azimuth, least, greatest] = in_weather(pose);
         let (status, reason) = match &pose.outcome {
             Ok(held) if held.is_within_limits() => (HELD, overflow.then(|| OVERFLOW.to_owned())),
             Ok(held) => ("beyond_limits", Some(in_words(&held.out_of_limits))),
@@ -169,11 +205,7 @@ impl WorkspaceRow {
             winch_at_hz: shaken_by.map(|of| of.per_shortening.frequency),
             winch: shaken_by.map(|of| of.winch + 1),
             amplitude_reason: shaken.and_then(|of| of.as_ref().err().map(ToString::to_string)),
-            weather_mm: moved,
-            weather_azimuth_deg: azimuth,
-            weather_least_tension: least,
-            weather_greatest_tension: greatest,
-            weather_reason: pose.weather.as_deref().and_then(wrong_in_weather),
+            ..Self::default()
         }
     }
 }
@@ -223,6 +255,28 @@ fn wrong_in_weather(weather: &Result<Winds, StaticsError>) -> Option<String> {
         let (azimuth, gravest) = beyond.min_by_key(|(_, gravest)| gravest.limit)?;
         Some(format!("{}{gravest}", towards(azimuth)))
     })
+}
+
+/// Numbers of cables (from 0), from 1 with `+` between them.
+fn joined(cables: &[usize]) -> String {
+    cables.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join("+")
+}
+
+/// A case in one cell.
+fn case_name(situation: &Situation) -> String {
+    match situation {
+        Situation::Intact => "intact".to_owned(),
+        Situation::Weather(_) => "weather".to_owned(),
+        Situation::Broken(cables) => joined(cables),
+    }
+}
+
+/// Why a utilization is not known.
+fn open_after_breaks(breaks: &Result<AfterBreaks, StaticsError>) -> Option<String> {
+    match breaks {
+        Ok(breaks) => breaks.open.clone(),
+        Err(error) => Some(error.to_string()),
+    }
 }
 
 /// Why a position that is held has no standard deviation.
@@ -296,7 +350,13 @@ pub(super) fn columns<S: Serializer>(rows: &[WorkspaceRow], serializer: S) -> Re
         weather_azimuth_deg,
         weather_least_tension,
         weather_greatest_tension,
-        weather_reason
+        weather_reason,
+        utilization,
+        utilization_cable,
+        utilization_case,
+        break_mm,
+        break_cable,
+        break_reason
     );
     columns.end()
 }

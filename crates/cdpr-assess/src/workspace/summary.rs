@@ -1,6 +1,7 @@
 //! A workspace in numbers: settings, counts, extremes.
 
 use crate::boundary::Boundary;
+use crate::safety::factors::PartialFactors;
 use crate::safety::winds::AnyWeather;
 use crate::workspace::question::{Shaking, Way, Workspace};
 use crate::workspace::results::{HELD, WorkspacePose};
@@ -88,6 +89,12 @@ pub struct WorkspaceSummary {
     pub weather_mm: Option<Extremes>,
     /// Greatest tension in the weather [N], in wind of any direction.
     pub weather_greatest_tension: Option<Extremes>,
+    /// Greatest utilization of a cable, with all cables, each of them broken and in the weather.
+    pub utilization: Option<Extremes>,
+    /// Motion of the platform after the break that moves it farthest [mm].
+    pub break_mm: Option<Extremes>,
+    /// The factors of the utilizations, if asked for.
+    pub factors: Option<PartialFactors>,
     /// The weather, if asked for.
     pub weather: Option<WeatherSummary>,
     /// What shakes the platform, if asked for.
@@ -303,6 +310,9 @@ impl WorkspaceSummary {
             winch_mm_per_mm: held_extremes(&rows, |row| row.winch_mm_per_mm),
             weather_mm: held_extremes(&rows, |row| row.weather_mm),
             weather_greatest_tension: held_extremes(&rows, |row| row.weather_greatest_tension),
+            utilization: held_extremes(&rows, |row| row.utilization),
+            break_mm: held_extremes(&rows, |row| row.break_mm),
+            factors: workspace.further.breaks,
             weather: workspace.further.weather.map(|weather| WeatherSummary::new(&weather, &rows)),
             shaking: workspace.further.shaking.map(|shaking| ShakingSummary::new(workspace.robot, &shaking)),
             boundary: None,

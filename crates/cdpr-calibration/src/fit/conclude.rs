@@ -2,8 +2,8 @@
 
 use crate::error::CalibrationError;
 use crate::fit::problem::{Problem, Seen};
-use crate::fit::search::{Found, Linearized};
-use crate::fitted::{Estimate, Fit, FitStatus, UNLIKELY, UnidentifiableCombination, is_known};
+use crate::fit::search::{Found, Linearized, Priors};
+use crate::fitted::{Estimate, Fit, FitStatus, Roots, UNLIKELY, UnidentifiableCombination};
 use crate::model::Shared;
 use crate::model::read::inverse_of_right;
 use crate::sensor_error::SensorError;
@@ -22,26 +22,27 @@ impl Problem<'_> {
         let robot = self.model.deviating(&state.shared.x)?;
         let compared = self.compared(&state, &robot)?;
         let after = self.differences(&compared);
-        let whole = self.decomposed(&at, &state.shared, true);
-        let data = self.decomposed(&at, &state.shared, false);
+        let [whole, data] =
+            [Priors::All, Priors::None].map(|which| self.decomposed(&at, &state.shared, which));
         let count = unknowns.all.len();
         let scales = DVector::from_iterator(count, unknowns.all.iter().map(|unknown| unknown.scale));
         let mut covariance = whole.covariance();
         covariance.iter_mut().enumerate().for_each(|(k, of)| *of *= scales[k / count] * scales[k % count]);
         let weights = self.weights(&state.shared);
-        let roots = [&whole, &data].map(Decomposed::root);
-        let std = |root: &DMatrix<f64>, j: usize| {
-            let std = (root * weights.column(j)).norm();
-            is_known(std, 1.0).then(|| std * scales[j])
-        };
+        let out_of_plane = unknowns.out_of_plane(self.model.robot);
+        let is_any_out = out_of_plane.contains(&true);
+        let in_plane = is_any_out.then(|| self.decomposed(&at, &state.shared, Priors::OutOfPlane).root());
+        let roots = Roots { posterior: whole.root(), data: data.root(), in_plane, out_of_plane };
         let estimates = (0..count)
             .map(|j| {
                 let unknown = &unknowns.all[j];
+                let [std, std_of_data] =
+                    roots.stds(&weights.column(j).into_owned(), 1.0).map(|std| std.map(|of| of * scales[j]));
                 Estimate {
                     name: unknown.name.clone(),
                     value: state.shared.x[j],
-                    std: std(&roots[0], j),
-                    std_of_data: std(&roots[1], j),
+                    std,
+                    std_of_data,
                     prior_std: unknown.prior.map(|[_, std]| std),
                 }
             })
@@ -99,7 +100,7 @@ impl Problem<'_> {
 
     /// Inputs of parameters that have to be known so that the data tell all others.
     pub(super) fn unidentifiable_inputs(&self, shared: &Shared, at: &Linearized) -> Vec<usize> {
-        let decomposed = self.decomposed(at, shared, false);
+        let decomposed = self.decomposed(at, shared, Priors::None);
         let rows = unidentifiable(&decomposed, self.model.unknowns.of_parameters());
         // A combination of errors of sensors alone has no parameter to fix.
         let has_parameter = |row: &DVector<f64>| row.amax() > 1e-6;

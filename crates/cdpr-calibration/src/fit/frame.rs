@@ -62,18 +62,18 @@ impl Problem<'_> {
         self.rows.iter().zip(poses).filter_map(seen).collect()
     }
 
-    /// Refuses positions that are not those of the lengths, but are after a rigid motion: they are in the
-    /// frame of a tracker.
+    /// Refuses positions of rows that are not those of the lengths, but are after a rigid motion: they are in
+    /// the frame of a tracker.
     ///
     /// # Errors
     /// [`CalibrationError::Column`] that says how far and by how much the frame is turned.
-    pub(super) fn check_frame(&self) -> Result<(), CalibrationError> {
+    pub(super) fn check_frame(&self, rows: &[crate::Row]) -> Result<(), CalibrationError> {
         let x = vec![0.0; self.model.unknowns.all.len()];
         let far = FAR * size(self.model.robot);
         let read = |row: &&crate::Row| row.lengths.is_some() && self.model.measured_pose(row).is_some();
-        let every = self.rows.len().div_ceil(FEW).max(1);
+        let every = rows.len().div_ceil(FEW).max(1);
         let mut pairs = Vec::new();
-        for row in self.rows.iter().filter(read).step_by(every) {
+        for row in rows.iter().filter(read).step_by(every) {
             let (Some(measured), Ok(pose)) = (self.model.measured_pose(row), self.model.by_lengths(row, &x))
             else {
                 continue;

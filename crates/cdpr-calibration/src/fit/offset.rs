@@ -5,6 +5,7 @@
 //! with a degree of freedom for each cable (score test, Rao 1948).
 
 use crate::fit::problem::Problem;
+use crate::fit::search::Priors;
 use crate::fitted::{LengthOffsets, RobustLoss};
 use crate::model::{Model, State};
 use crate::sensor_error::SensorError;
@@ -21,12 +22,12 @@ impl Problem<'_> {
         }
         let mut more = unknowns.clone();
         more.add(nominal, SensorError::LengthOffset, None, unknowns.marker_count);
-        let problem = Problem { model: Model::new(nominal, &more, self.rows), ..*self };
+        let problem = Problem { model: self.model.seeking(&more), ..*self };
         let mut state = state.clone();
         state.shared.x.resize(more.all.len(), 0.0);
         let compared = problem.compared(&state, robot).ok()?;
         let at = problem.linearized(&state.shared, compared);
-        let decomposed = problem.decomposed(&at, &state.shared, true);
+        let decomposed = problem.decomposed(&at, &state.shared, Priors::All);
         let step = decomposed.step(0.0);
         let offsets = (unknowns.all.len()..more.all.len()).map(|j| step[j] * more.all[j].scale).collect();
         Some(LengthOffsets { gain: decomposed.distance().powi(2), offsets })

@@ -61,6 +61,15 @@ impl Found {
     }
 }
 
+/// Which priors count.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Priors {
+    All,
+    /// Those of unknowns that move points out of the plane of a planar robot alone.
+    OutOfPlane,
+    None,
+}
+
 /// Times that rows are begun again at most.
 const MOST_LOOKS: usize = 10;
 
@@ -90,7 +99,7 @@ impl Problem<'_> {
         let mut steps = 0;
         let mut before = f64::INFINITY;
         loop {
-            let decomposed = self.decomposed(&at, &state.shared, true);
+            let decomposed = self.decomposed(&at, &state.shared, Priors::All);
             // What the rows' own unknowns alone would gain counts, too: a row that is stuck is no minimum.
             let own: f64 = at.rows.iter().map(Eliminated::gain).sum();
             let distance = (decomposed.distance().powi(2) + own).sqrt();
@@ -200,13 +209,17 @@ impl Problem<'_> {
         Linearized { data: reduce(&rows, count + 1), rows, motions, cost }
     }
 
-    /// The whole problem in scales: data, priors, and zero columns for unknowns at their bounds.
-    pub(super) fn decomposed(&self, at: &Linearized, shared: &Shared, with_priors: bool) -> Decomposed {
+    /// The problem in scales: data, priors and, with all of these, zero columns for unknowns at their bounds.
+    pub(super) fn decomposed(&self, at: &Linearized, shared: &Shared, which: Priors) -> Decomposed {
         let x = &shared.x;
         let count = x.len();
         let mut whole = at.data.clone();
-        if with_priors {
-            let priors: Vec<_> = self.priors(shared);
+        if which != Priors::None {
+            let mut priors: Vec<_> = self.priors(shared);
+            if which == Priors::OutOfPlane {
+                let out_of_plane = self.model.unknowns.out_of_plane(self.model.robot);
+                priors.retain(|(j, ..)| out_of_plane[*j]);
+            }
             let mut rows = DMatrix::zeros(priors.len(), count + 1);
             for (r, (j, residual, slope)) in priors.into_iter().enumerate() {
                 rows[(r, j)] = slope;
@@ -216,15 +229,17 @@ impl Problem<'_> {
         }
         let mut matrix = whole.columns(0, count).into_owned();
         let right = whole.column(count).into_owned();
-        if with_priors {
+        let mut fixed = Vec::new();
+        if which == Priors::All {
             let gradient = matrix.tr_mul(&right);
             for (j, unknown) in self.model.unknowns.all.iter().enumerate() {
                 let [least, most] = unknown.bounds;
                 if (x[j] <= least && gradient[j] > 0.0) || (x[j] >= most && gradient[j] < 0.0) {
                     matrix.column_mut(j).fill(0.0);
+                    fixed.push(j);
                 }
             }
         }
-        Decomposed::new(matrix, &right)
+        Decomposed::new(matrix, &right).with_fixed(fixed)
     }
 }

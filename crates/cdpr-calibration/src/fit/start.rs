@@ -6,7 +6,7 @@ use crate::fit::frame::RigidMotion;
 use crate::fit::problem::{Problem, Seen};
 use crate::fit::search::SEEN;
 use crate::model::row::held_lengths;
-use crate::model::{Model, RowState, Shared, State};
+use crate::model::{RowState, Shared, State};
 use crate::sensor_error::{SensorError, size};
 use crate::solve::Decomposed;
 use crate::unknowns::Unknown;
@@ -161,7 +161,7 @@ impl Problem<'_> {
             };
             let rows: Vec<Row> = self.rows.iter().map(soften).collect();
             let soft = Problem {
-                model: Model::new(self.model.robot, self.model.unknowns, &rows),
+                model: self.model.seeking(self.model.unknowns),
                 rows: &rows,
                 settings: self.settings,
             };

@@ -2,32 +2,49 @@
 
 use crate::fitted::Fit;
 use crate::model::row::held_lengths;
-use cdpr_robot::{Pose, Robot};
+use crate::sensor_error::free_axes;
+use cdpr_robot::{Axis, Pose, Robot, Vector3};
 use cdpr_statics::{DirectProblem, DirectStart, Load};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// Standard deviations of the position over a plane, before and after a calibration.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// Standard deviations of the position over a plane, before and after a calibration: that of a planar robot,
+/// else a level one. A file has its coordinates by the names of their axes: lists `x` and `y`, a number `z`.
+#[derive(Clone, Debug, PartialEq)]
 pub struct UncertaintyMap {
+    /// Axes of the columns and of the rows, and the axis at right angles to the plane.
+    pub axes: [Axis; 3],
     /// Coordinates of the columns [m].
-    pub x: Vec<f64>,
+    pub columns: Vec<f64>,
     /// Coordinates of the rows [m].
-    pub y: Vec<f64>,
-    /// Height of the plane [m]: the mean of the measured poses.
-    pub z: f64,
-    /// Standard deviation of a coordinate of P with given lengths, before [m], x fastest; none without prior
-    /// and where the level platform is not held.
+    pub rows: Vec<f64>,
+    /// Where the plane is along its axis [m]: the mean of the measured poses.
+    pub at: f64,
+    /// Standard deviation of a coordinate of P with given lengths, before [m], a row after the other; none
+    /// without prior and where the level platform is not held.
     pub before: Vec<Option<f64>>,
     /// After [m].
     pub after: Vec<Option<f64>>,
 }
 
+impl Serialize for UncertaintyMap {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let [column, row, normal] = self.axes.map(|axis| axis.to_string());
+        let mut map = serializer.serialize_map(Some(5))?;
+        map.serialize_entry(&column, &self.columns)?;
+        map.serialize_entry(&row, &self.rows)?;
+        map.serialize_entry(&normal, &self.at)?;
+        map.serialize_entry("before", &self.before)?;
+        map.serialize_entry("after", &self.after)?;
+        map.end()
+    }
+}
+
 /// Points of the map along each axis.
 const POINTS: usize = 9;
 
-/// Mean variance of the coordinates of P near a pose [m²], with these lengths.
+/// Mean variance of the free coordinates of P near a pose [m²], with these lengths.
 pub(super) fn variance_at(
     robot: &Robot,
     lengths: &[f64],
@@ -37,8 +54,12 @@ pub(super) fn variance_at(
     let problem = DirectProblem::new(robot, lengths, &Load::none()).ok()?;
     let found = problem.direct(DirectStart::Pose(pose)).ok()?;
     let slopes = problem.derivatives(&found.equilibrium).ok()?.pose;
-    let position = slopes.view((0, 0), (3, covariance.nrows()));
-    Some(((position * covariance * position.transpose()).trace() / 3.0).max(0.0))
+    let axes = free_axes(robot);
+    let variance = |k: &usize| {
+        let slopes = slopes.view((*k, 0), (1, covariance.nrows()));
+        (slopes * covariance * slopes.transpose())[0]
+    };
+    Some((axes.iter().map(variance).sum::<f64>() / axes.len() as f64).max(0.0))
 }
 
 /// The map over the box of the measured poses of a fit, for covariances of the parameters before and after.
@@ -54,14 +75,26 @@ pub(crate) fn uncertainty_map(
         let (least, most) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
         (0..POINTS).map(|i| least + (most - least) * i as f64 / (POINTS - 1) as f64).collect()
     };
-    let (x, y) = (axis(0), axis(1));
-    let z = fit.poses.iter().map(|pose| pose.position.z).sum::<f64>() / count;
-    let places: Vec<Pose> = y.iter().flat_map(|y| x.iter().map(move |x| Pose::at(*x, *y, z))).collect();
+    let [u, v, w] = match free_axes(nominal)[..] {
+        [u, v] => [u, v, 3 - u - v],
+        _ => [0, 1, 2],
+    };
+    let (columns, rows) = (axis(u), axis(v));
+    let at = fit.poses.iter().map(|pose| pose.position[w]).sum::<f64>() / count;
+    let place = |column: f64, row: f64| {
+        let mut position = Vector3::zeros();
+        (position[u], position[v], position[w]) = (column, row, at);
+        Pose::at(position.x, position.y, position.z)
+    };
+    let places: Vec<Pose> =
+        rows.iter().flat_map(|row| columns.iter().map(move |column| place(*column, *row))).collect();
     let map = |robot: &Robot, covariance: &DMatrix<f64>| -> Vec<Option<f64>> {
         let variance = |pose| variance_at(robot, &held_lengths(robot, pose).ok()?, pose, covariance);
         places.par_iter().map(|pose| variance(pose).map(f64::sqrt)).collect()
     };
     let after = map(&fit.robot, after);
     let before = before.map_or_else(|| vec![None; after.len()], |before| map(nominal, before));
-    after.iter().any(Option::is_some).then_some(UncertaintyMap { x, y, z, before, after })
+    let axes = [u, v, w].map(|k| Axis::ALL[k]);
+    let is_held = after.iter().any(Option::is_some);
+    is_held.then_some(UncertaintyMap { axes, columns, rows, at, before, after })
 }

@@ -1,6 +1,7 @@
 //! What is odd about a calibration.
 
 use crate::fitted::{Fit, FitStatus, UNLIKELY};
+use crate::model::held::{HeldReading, farthest_held};
 use crate::results::patterns::Trend;
 use crate::results::summary::{CalibrationSummary, Campaign};
 use crate::sensor_error::SensorError;
@@ -61,6 +62,7 @@ impl Fit {
                  leaves something out"
             ));
         }
+        warnings.extend(self.held_coordinates(campaign));
         if let Some((line, share)) = self.worst_row() {
             warnings.push(format!(
                 "line {line} alone makes {:.0} % of the sum of squares: it may be of another robot or pose",
@@ -74,6 +76,24 @@ impl Fit {
             ));
         }
         warnings
+    }
+
+    /// What is measured of coordinates that the robot holds, where noise does not explain it.
+    fn held_coordinates(&self, campaign: &Campaign) -> Option<String> {
+        const FAR: f64 = 5.0;
+        let Campaign { robot, measured, .. } = campaign;
+        let HeldReading { line, quantity, off, standard_deviations } =
+            farthest_held(robot, &self.unknowns, &measured.rows)
+                .filter(|of| measured.noise_is_stated && of.standard_deviations > FAR)?;
+        let (is_angle, is_point) = (quantity.unit() == "rad", robot.plane.is_none());
+        let (off, unit) = if is_angle { (off.to_degrees(), "degrees") } else { (1e3 * off, "mm") };
+        let column = if is_angle { "the orientation".to_owned() } else { format!("column {quantity}") };
+        let held = if is_point { "a point mass does not rotate" } else { "the robot cannot leave its plane" };
+        Some(format!(
+            "{column} is {} {unit} off in line {line}, {standard_deviations:.0} standard deviations, though \
+             {held}: what holds it, or the frame of the measurements, may be another; it does not count",
+            significant(off, 2)
+        ))
     }
 
     /// What shows that lengths have constant errors which are not sought: means of their residuals or, where

@@ -2,7 +2,7 @@
 
 use super::band::Band;
 use super::lead::{Lead, Way};
-use super::mesh::{Forces, Material, Mesh, Points, Pull};
+use super::mesh::{Forces, Material, Mesh, Part, Points, Pull};
 use super::winch::Reeling;
 use cdpr_robot::{Matrix3, Vector3, Vector6};
 
@@ -37,7 +37,7 @@ pub(super) struct CableInMotion<'a> {
 }
 
 /// Place and velocity of an anchor point.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct End {
     pub(super) lever: Vector3<f64>,
     pub(super) position: Vector3<f64>,
@@ -45,13 +45,13 @@ pub(super) struct End {
 }
 
 /// A cable at an instant.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Instant {
     pub(super) points: Points,
     pub(super) forces: Forces,
     /// Unstrained length [m] and its rate [m/s].
     pub(super) length: (f64, f64),
-    way: Option<Way>,
+    pub(super) way: Option<Way>,
 }
 
 impl Instant {
@@ -97,6 +97,11 @@ impl CableInMotion<'_> {
         self.of_start() + self.mesh.as_ref().map_or(0, |mesh| 3 * (mesh.size() - 2))
     }
 
+    /// Whether it begins behind a lead that has an unknown.
+    pub(super) fn is_led(&self) -> bool {
+        matches!(self.start, Start::Led(_)) && self.mesh.is_some()
+    }
+
     /// Whether it is a chain of straight elements.
     pub(super) fn is_chain(&self) -> bool {
         self.mesh.as_ref().is_some_and(|mesh| mesh.rule.degree == 1)
@@ -123,62 +128,61 @@ impl CableInMotion<'_> {
         })
     }
 
-    /// The cable at a time; `own` are its unknowns and their rates.
-    pub(super) fn at(&self, time: f64, end: &End, own: [&[f64]; 2]) -> Instant {
+    /// The cable at a time, in the memory of another instant; `own` are its unknowns and their rates.
+    pub(super) fn at(&self, time: f64, end: &End, own: [&[f64]; 2], at: &mut Instant) {
         let length = self.length_at(time);
         let way = match &self.start {
             Start::Led(lead) => Some(lead.way(&end.position)),
             _ => None,
         };
-        let Some(mesh) = &self.mesh else { return self.straight(end, length, way) };
-        let size = mesh.size();
-        let mut points = Points { positions: Vec::with_capacity(size), velocities: Vec::with_capacity(size) };
+        (at.length, at.way) = (length, way);
+        let Points { positions, velocities } = &mut at.points;
+        positions.clear();
+        velocities.clear();
+        let Some(mesh) = &self.mesh else { return self.straight(end, length, at) };
         let begin = match &self.start {
             Start::Fixed(exit) => [*exit, Vector3::zeros()],
             Start::Led(lead) => way
                 .map_or([Vector3::zeros(); 2], |way| [lead.end(&way, own[0][0]), way.direction * own[1][0]]),
             Start::Loose => own.map(|own| Vector3::from_column_slice(&own[..3])),
         };
-        points.positions.push(begin[0]);
-        points.velocities.push(begin[1]);
-        for k in (self.of_start()..own[0].len()).step_by(3) {
-            points.positions.push(Vector3::from_column_slice(&own[0][k..k + 3]));
-            points.velocities.push(Vector3::from_column_slice(&own[1][k..k + 3]));
+        for ((vectors, own), [begin, end]) in [positions, velocities]
+            .into_iter()
+            .zip(own)
+            .zip([[begin[0], end.position], [begin[1], end.velocity]])
+        {
+            vectors.push(begin);
+            vectors.extend(own[self.of_start()..].chunks_exact(3).map(Vector3::from_column_slice));
+            vectors.push(end);
         }
-        points.positions.push(end.position);
-        points.velocities.push(end.velocity);
         // Material comes out of the exit along the cable.
         if let (true, Some(part)) = (length.1 != 0.0, mesh.parts(length.0).next()) {
-            let slope = part.slopes(&mesh.rule.slopes[0], &points).0;
-            points.velocities[0] += slope * length.1;
+            let slope = part.slopes(&mesh.rule.pulls[0].1, &at.points).0;
+            at.points.velocities[0] += slope * length.1;
         }
-        let forces = mesh.forces(&self.material, length, &points);
-        Instant { points, forces, length, way }
+        mesh.forces(&self.material, length, &at.points, &mut at.forces);
     }
 
     /// A straight cable without mass.
-    fn straight(&self, end: &End, (length, growth): (f64, f64), way: Option<Way>) -> Instant {
+    fn straight(&self, end: &End, (length, growth): (f64, f64), at: &mut Instant) {
         let exit = match &self.start {
             Start::Fixed(exit) => Some(*exit),
-            Start::Led(_) => way.map(|way| way.point),
+            Start::Led(_) => at.way.map(|way| way.point),
             Start::Loose => None,
         };
-        let mut forces = Forces { forces: Vec::new(), masses: Vec::new(), flow: None, pulls: Vec::new() };
-        let mut points = Points { positions: Vec::new(), velocities: Vec::new() };
-        if let Some(exit) = exit {
-            let span = end.position - exit;
-            let (free, guided) = way.map_or((span.norm(), 0.0), |way| (way.free, way.guided));
-            let along = way.map_or_else(|| span / free.max(f64::MIN_POSITIVE), |way| way.direction);
-            let stretch = (free + guided) / length;
-            let rate = (along.dot(&end.velocity) - stretch * growth) / length;
-            let pull = self.material.stretched(along, stretch, rate);
-            forces.pulls.push(pull);
-            forces.forces.push(-along * pull.tension);
-            forces.masses.push(0.0);
-            points.positions = vec![exit, end.position];
-            points.velocities = vec![Vector3::zeros(), end.velocity];
-        }
-        Instant { points, forces, length: (length, growth), way }
+        at.forces = Forces::default();
+        let Some(exit) = exit else { return };
+        let span = end.position - exit;
+        let (free, guided) = at.way.map_or((span.norm(), 0.0), |way| (way.free, way.guided));
+        let along = at.way.map_or_else(|| span / free.max(f64::MIN_POSITIVE), |way| way.direction);
+        let stretch = (free + guided) / length;
+        let rate = (along.dot(&end.velocity) - stretch * growth) / length;
+        let pull = self.material.stretched(along, stretch, rate);
+        at.forces.pulls.push(pull);
+        at.forces.forces.push(-along * pull.tension);
+        at.forces.masses.push(0.0);
+        at.points.positions.extend([exit, end.position]);
+        at.points.velocities.extend([Vector3::zeros(), end.velocity]);
     }
 
     /// What it adds to the platform.
@@ -224,7 +228,7 @@ impl CableInMotion<'_> {
         }
         let first = usize::from(!matches!(self.start, Start::Loose));
         for point in first..at.points.positions.len() - 1 {
-            let mut acceleration = at.forces.forces[point] / at.forces.masses[point] + gravity;
+            let mut acceleration = at.forces.forces[point] * (1.0 / at.forces.masses[point]) + gravity;
             let mut rate = Vector3::from_column_slice(&own[1][next..next + 3]);
             if let Some((velocities, more)) = &at.forces.flow {
                 rate += velocities[point];
@@ -236,46 +240,54 @@ impl CableInMotion<'_> {
         }
     }
 
-    /// Energy [J]: kinetic without that of the anchor point's mass, and stored; power [W] of the winch, and
-    /// power lost.
-    pub(super) fn energy(&self, at: &Instant, own: [&[f64]; 2], gravity: &Vector3<f64>) -> [f64; 4] {
-        let [mut kinetic, mut stored, mut lost] = [0.0; 3];
-        let pulls = &at.forces.pulls;
-        let Some(mesh) = &self.mesh else {
-            if let Some(pull) = pulls.first() {
-                let (length, growth) = at.length;
-                let own = self.material.energy(pull);
-                let lost = pull.viscosity * pull.rate * pull.rate * length;
-                return [0.0, own * length, growth * (own - pull.tension * pull.stretch), lost];
-            }
-            return [0.0; 4];
-        };
-        let count = mesh.rule.degree + 1;
-        for (e, part) in mesh.parts(at.length.0).enumerate() {
-            for (j, [_, weight]) in mesh.rule.points.iter().enumerate() {
-                let pull = &pulls[e * count + j];
-                let length = 0.5 * weight * part.length;
-                stored += length * self.material.energy(pull);
-                lost += length * pull.viscosity * pull.rate * pull.rate;
-            }
+    /// Energy [J]: kinetic without that of the anchor point's mass, and stored.
+    pub(super) fn energy(&self, at: &Instant, own: [&[f64]; 2], gravity: &Vector3<f64>) -> [f64; 2] {
+        let [mut kinetic, mut stored] = [0.0; 2];
+        for (length, pull) in self.lengths_of_pulls(at) {
+            stored += length * self.material.energy(pull);
         }
-        let last = at.points.positions.len() - 1;
+        let before_last = at.points.positions.len().saturating_sub(1);
         for (point, mass) in at.forces.masses.iter().enumerate() {
             stored -= mass * gravity.dot(&at.points.positions[point]);
-            if point < last {
+            if point < before_last {
                 kinetic += 0.5 * mass * at.points.velocities[point].norm_squared();
             }
         }
-        if let Start::Led(lead) = &self.start {
-            let [more, loss] = lead.energy(&self.material, own[0][0], own[1][0]);
-            (stored, lost) = (stored + more, lost + loss);
+        if let (Start::Led(lead), Some(_)) = (&self.start, &self.mesh) {
+            stored += lead.energy(&self.material, own[0][0], own[1][0])[0];
             kinetic += 0.5 * lead.mass(&self.material) * own[1][0] * own[1][0];
         }
-        let (exit, growth) = (&pulls[0], at.length.1);
-        let density = self.material.density;
-        let leaves = 0.5 * density * at.points.velocities[0].norm_squared() + self.material.energy(exit)
-            - density * gravity.dot(&at.points.positions[0]);
-        [kinetic, stored, growth * (leaves - exit.tension * exit.stretch), lost]
+        [kinetic, stored]
+    }
+
+    /// Power [W] of the winch, and power lost.
+    pub(super) fn powers(&self, at: &Instant, own: [&[f64]; 2], gravity: &Vector3<f64>) -> [f64; 2] {
+        let Some(exit) = at.forces.pulls.first() else { return [0.0; 2] };
+        let mut lost = 0.0;
+        for (length, pull) in self.lengths_of_pulls(at) {
+            lost += length * pull.viscosity * pull.rate * pull.rate;
+        }
+        let mut leaves = self.material.energy(exit) - exit.tension * exit.stretch;
+        if self.mesh.is_some() {
+            if let Start::Led(lead) = &self.start {
+                lost += lead.energy(&self.material, own[0][0], own[1][0])[1];
+            }
+            let [position, velocity] = [&at.points.positions[0], &at.points.velocities[0]];
+            leaves += self.material.density * (0.5 * velocity.norm_squared() - gravity.dot(position));
+        }
+        [at.length.1 * leaves, lost]
+    }
+
+    /// The tensions with the unstrained length [m] that each stands for.
+    fn lengths_of_pulls<'s>(&'s self, at: &'s Instant) -> impl Iterator<Item = (f64, &'s Pull)> {
+        let mut pulls = at.forces.pulls.iter();
+        let parts = self.mesh.iter().flat_map(move |mesh| {
+            let of_part =
+                move |part: Part| mesh.rule.pulls.iter().map(move |(weight, _)| weight * part.length);
+            mesh.parts(at.length.0).flat_map(of_part)
+        });
+        let whole = self.mesh.is_none().then_some(2.0 * at.length.0);
+        parts.chain(whole).filter_map(move |length| Some((0.5 * length, pulls.next()?)))
     }
 
     /// Matrices about an instant, and stiffness and damping at the anchor point.
@@ -318,8 +330,8 @@ impl CableInMotion<'_> {
             matrices.damping.add(0, 0, damping);
         }
         let arm = lever.cross_matrix();
-        for (e, part) in mesh.parts(at.length.0).enumerate() {
-            let pulls = &at.forces.pulls[e * (degree + 1)..][..=degree];
+        let pulls = at.forces.pulls.chunks_exact(mesh.rule.pulls.len());
+        for (part, pulls) in mesh.parts(at.length.0).zip(pulls) {
             for a in 0..=degree {
                 for b in 0..=degree {
                     let blocks = || part.blocks(&mesh.rule, pulls, [a, b]);

@@ -5,7 +5,7 @@ use super::event::{Change, CutAt, Event};
 use super::mesh::{Mesh, Rule};
 use super::radau::{Equations, Linearization};
 use super::setting::Discretization;
-use super::system::System;
+use super::system::{Snapshot, System};
 use cdpr_robot::Wrench;
 use std::sync::Arc;
 
@@ -24,11 +24,13 @@ impl System<'_> {
         }
         let greatest =
             |slopes: &[f64]| slopes[n..].iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-        let mut best = greatest(&self.slopes(0.0, state));
+        let (mut snapshot, mut slopes) = (Snapshot::default(), vec![0.0; 2 * n]);
+        self.slopes(0.0, state, &mut snapshot, &mut slopes);
+        let mut best = greatest(&slopes);
         let mut found = (state.clone(), self.rotation);
         self.cables.iter_mut().for_each(|cable| cable.material.relaxing = Some(cable.least_tension));
         for step in 0..MOST_STEPS {
-            let slopes = self.slopes(0.0, state);
+            self.slopes(0.0, state, &mut snapshot, &mut slopes);
             let residual = greatest(&slopes);
             if residual < best {
                 best = residual;
@@ -38,7 +40,7 @@ impl System<'_> {
             }
             let matrices = self.linearize(0.0, state);
             let Some(factors) = matrices.factor(SHIFT) else { break };
-            let mut right = slopes;
+            let mut right = slopes.clone();
             right[..n].fill(0.0);
             let step = matrices.solve(&factors, &right);
             state.iter_mut().zip(&step[..n]).for_each(|(value, step)| *value += step);
@@ -47,7 +49,8 @@ impl System<'_> {
         (*state, self.rotation) = found;
         self.free = free;
         self.cables.iter_mut().for_each(|cable| cable.material.relaxing = None);
-        greatest(&self.slopes(0.0, state))
+        self.slopes(0.0, state, &mut snapshot, &mut slopes);
+        greatest(&slopes)
     }
 
     /// After the platform was displaced: the leads are those of the rest, and their ends are where they fit

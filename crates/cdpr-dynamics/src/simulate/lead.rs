@@ -90,6 +90,11 @@ impl Lead {
         Way { point: self.entry + back(leave) + self.shift, direction: direction.normalize(), guided, free }
     }
 
+    /// Unstrained length [m].
+    pub(super) fn unstrained(&self) -> f64 {
+        self.unstrained
+    }
+
     /// Place of the end of lead and arc that are longer by `longer` [m] than at rest.
     pub(super) fn end(&self, way: &Way, longer: f64) -> Vector3<f64> {
         way.point + way.direction * (longer - (way.guided - self.stretched))

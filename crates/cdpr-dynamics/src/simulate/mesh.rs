@@ -33,12 +33,21 @@ pub(super) struct Rule {
     pub(super) degree: usize,
     /// Points and weights over x from -1 to 1.
     pub(super) points: Vec<[f64; 2]>,
-    pub(super) slopes: Vec<Vec<f64>>,
+    /// Where the tension of an element is evaluated: weight, and derivative through the points. An element of
+    /// degree 1 is straight: its tension is the same at both points.
+    pub(super) pulls: Vec<(f64, Vec<f64>)>,
 }
 
 impl Rule {
     pub(super) fn new(degree: usize) -> Self {
-        Self { degree, points: lobatto(degree), slopes: lobatto_slopes(degree) }
+        let points = lobatto(degree);
+        let slopes = lobatto_slopes(degree);
+        let pulls = if degree == 1 {
+            slopes.into_iter().take(1).map(|row| (2.0, row)).collect()
+        } else {
+            points.iter().map(|[_, weight]| *weight).zip(slopes).collect()
+        };
+        Self { degree, points, pulls }
     }
 }
 
@@ -123,7 +132,7 @@ impl Material<'_> {
 }
 
 /// Points of a cable from its exit to its anchor point and their material velocities.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Points {
     pub(super) positions: Vec<Vector3<f64>>,
     pub(super) velocities: Vec<Vector3<f64>>,
@@ -140,7 +149,7 @@ pub(super) struct Part {
 type Flow = (Vec<Vector3<f64>>, Vec<Vector3<f64>>);
 
 /// What acts on the points of a cable.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Forces {
     /// Internal force on each point [N].
     pub(super) forces: Vec<Vector3<f64>>,
@@ -148,7 +157,7 @@ pub(super) struct Forces {
     pub(super) masses: Vec<f64>,
     /// What the material that flows past the points adds to their velocity [m/s] and acceleration [m/s²].
     pub(super) flow: Option<Flow>,
-    /// Tension at every point of every element.
+    /// Tensions of every element, those of [`Rule::pulls`].
     pub(super) pulls: Vec<Pull>,
 }
 
@@ -191,7 +200,9 @@ impl Mesh {
         /// of the discrete cable, which begins the motion, the error is smaller by orders.
         const ERROR: f64 = 0.1;
         let (shares, degree) = (self.shares(), self.rule.degree);
-        let pulls = self.forces(material, (length, 0.0), points).pulls;
+        let mut forces = Forces::default();
+        self.forces(material, (length, 0.0), points, &mut forces);
+        let pulls = &forces.pulls;
         pulls.iter().enumerate().all(|(k, pull)| {
             let point = k / (degree + 1) * degree + k % (degree + 1);
             let expected = tension_at(shares[point]);
@@ -243,55 +254,66 @@ impl Mesh {
         material: &Material,
         (length, growth): (f64, f64),
         points: &Points,
-    ) -> Forces {
+        found: &mut Forces,
+    ) {
         let (rule, size) = (&*self.rule, self.size());
-        let mut forces = vec![Vector3::zeros(); size];
-        let mut masses = vec![0.0; size];
-        let mut pulls = Vec::with_capacity(size + self.ends.len());
-        let mut flow = (growth != 0.0).then(|| (vec![Vector3::zeros(); size], vec![Vector3::zeros(); size]));
-        let shares = if flow.is_some() { self.shares() } else { Vec::new() };
+        let Forces { forces, masses, flow, pulls } = found;
+        forces.clear();
+        forces.resize(size, Vector3::zeros());
+        masses.clear();
+        masses.resize(size, 0.0);
+        pulls.clear();
         for part in self.parts(length) {
-            let (mut slope, mut rate) = part.slopes(&rule.slopes[0], points);
-            let mut pull = material.pull(slope, rate);
-            for (j, row) in rule.slopes.iter().enumerate() {
-                let weight = rule.points[j][1];
-                // An element of degree 1 is straight.
-                if j > 0 && rule.degree > 1 {
-                    (slope, rate) = part.slopes(row, points);
-                    pull = material.pull(slope, rate);
-                }
+            for (weight, row) in &rule.pulls {
+                let (slope, rate) = part.slopes(row, points);
+                let pull = material.pull(slope, rate);
                 let tension = pull.along * (weight * pull.tension);
-                for (k, share) in row.iter().enumerate() {
-                    forces[part.first + k] -= tension * *share;
-                }
-                let mass = 0.5 * weight * material.density * part.length;
-                let point = part.first + j;
-                masses[point] += mass;
-                if let Some((velocities, accelerations)) = &mut flow {
-                    let passing = -(1.0 - shares[point]) * growth;
-                    velocities[point] += slope * (mass * passing);
-                    accelerations[point] += rate * (mass * passing);
+                for (force, share) in forces[part.first..].iter_mut().zip(row) {
+                    *force -= tension * *share;
                 }
                 pulls.push(pull);
             }
-        }
-        if let Some((velocities, accelerations)) = &mut flow {
-            for (point, mass) in masses.iter().enumerate() {
-                velocities[point] /= *mass;
-                accelerations[point] /= *mass;
+            for (mass, [_, weight]) in masses[part.first..].iter_mut().zip(&rule.points) {
+                *mass += 0.5 * weight * material.density * part.length;
             }
         }
-        Forces { forces, masses, flow, pulls }
+        *flow = (growth != 0.0).then(|| self.flow((length, growth), points));
+    }
+
+    /// What the material that flows past the points adds, with the derivatives of all elements at a point
+    /// weighted by their masses there.
+    fn flow(&self, (length, growth): (f64, f64), points: &Points) -> Flow {
+        let (rule, size, shares) = (&*self.rule, self.size(), self.shares());
+        let (mut velocities, mut accelerations) =
+            (vec![Vector3::zeros(); size], vec![Vector3::zeros(); size]);
+        let mut weights = vec![0.0; size];
+        for part in self.parts(length) {
+            for (j, [_, weight]) in rule.points.iter().enumerate() {
+                let (slope, rate) = part.slopes(&rule.pulls[j.min(rule.pulls.len() - 1)].1, points);
+                let (point, weight) = (part.first + j, weight * part.length);
+                let passing = -(1.0 - shares[point]) * growth * weight;
+                velocities[point] += slope * passing;
+                accelerations[point] += rate * passing;
+                weights[point] += weight;
+            }
+        }
+        for (point, weight) in weights.iter().enumerate() {
+            velocities[point] /= *weight;
+            accelerations[point] /= *weight;
+        }
+        (velocities, accelerations)
     }
 }
 
 impl Part {
     /// r' and its rate at a point, whose row of derivatives is given.
+    #[inline]
     pub(super) fn slopes(&self, row: &[f64], points: &Points) -> (Vector3<f64>, Vector3<f64>) {
         let (mut slope, mut rate) = (Vector3::zeros(), Vector3::zeros());
-        for (k, share) in row.iter().enumerate() {
-            slope += points.positions[self.first + k] * *share;
-            rate += points.velocities[self.first + k] * *share;
+        let of_points = points.positions[self.first..].iter().zip(&points.velocities[self.first..]);
+        for (share, (position, velocity)) in row.iter().zip(of_points) {
+            slope += position * *share;
+            rate += velocity * *share;
         }
         let scale = 2.0 / self.length;
         (slope * scale, rate * scale)
@@ -300,9 +322,8 @@ impl Part {
     /// Stiffness and damping between two points.
     pub(super) fn blocks(&self, rule: &Rule, pulls: &[Pull], [a, b]: [usize; 2]) -> [Matrix3<f64>; 2] {
         let mut blocks = [Matrix3::zeros(); 2];
-        for (j, pull) in pulls.iter().enumerate() {
-            let row = &rule.slopes[j];
-            let share = 2.0 / self.length * rule.points[j][1] * row[a] * row[b];
+        for (pull, (weight, row)) in pulls.iter().zip(&rule.pulls) {
+            let share = 2.0 / self.length * weight * row[a] * row[b];
             let along: Matrix3<f64> = pull.along * pull.along.transpose();
             let across = pull.across / pull.stretch;
             blocks[0] += (along * (pull.modulus - across) + Matrix3::identity() * across) * share;

@@ -7,9 +7,11 @@ use nalgebra::{Complex, ComplexField};
 pub(super) trait Equations {
     /// What Newton's method needs of f at a state.
     type Linearization: Linearization;
+    /// What an evaluation leaves for the next one to write over.
+    type Memory: Default;
 
     /// f at a time [s] and a state.
-    fn slopes(&self, time: f64, state: &[f64]) -> Vec<f64>;
+    fn slopes(&self, time: f64, state: &[f64], memory: &mut Self::Memory, slopes: &mut [f64]);
 
     /// The derivative of f by the state.
     fn linearize(&self, time: f64, state: &[f64]) -> Self::Linearization;
@@ -74,6 +76,7 @@ pub(super) struct Radau<S: Equations> {
     slopes: Vec<f64>,
     newton: Option<Newton<S::Linearization>>,
     is_current: bool,
+    memory: S::Memory,
     /// The last step [s], its stages and its error.
     last: Option<(f64, [Vec<f64>; 3], f64)>,
     pub(super) work: Work,
@@ -114,9 +117,10 @@ pub(super) struct Stalled;
 
 impl<S: Equations> Radau<S> {
     pub(super) fn new(equations: &S, time: f64, state: Vec<f64>, step: f64) -> Self {
-        let slopes = equations.slopes(time, &state);
+        let (mut memory, mut slopes) = (S::Memory::default(), vec![0.0; state.len()]);
+        equations.slopes(time, &state, &mut memory, &mut slopes);
         let work = Work { evaluations: 1, ..Work::default() };
-        Self { time, state, step, slopes, newton: None, is_current: false, last: None, work }
+        Self { time, state, step, slopes, newton: None, is_current: false, memory, last: None, work }
     }
 
     /// One step, not beyond `until` [s].
@@ -186,7 +190,7 @@ impl<S: Equations> Radau<S> {
         let step = Step { length: h, stages: [at(0), at(1), at(2)] };
         self.time += h;
         self.state.clone_from(&step.stages[2].1);
-        self.slopes = equations.slopes(self.time, &self.state);
+        equations.slopes(self.time, &self.state, &mut self.memory, &mut self.slopes);
         self.last = Some((h, stages, error));
         self.work.steps += 1;
         self.work.evaluations += 1;
@@ -221,11 +225,12 @@ impl<S: Equations> Radau<S> {
         let Some((_, real, complex)) = &newton.factors else { return Err(None) };
         let mut w = combined(&TI, &z);
         let (mut before, mut rate) = (None, 0.0_f64);
+        let (mut state, mut slopes) = (vec![0.0; n], [0; 3].map(|_| vec![0.0; n]));
         for iteration in 1..=MOST_ITERATIONS {
-            let slopes: [Vec<f64>; 3] = std::array::from_fn(|k| {
-                let state: Vec<f64> = self.state.iter().zip(&z[k]).map(|(y, z)| y + z).collect();
-                equations.slopes(self.time + C[k] * h, &state)
-            });
+            for k in 0..3 {
+                state.iter_mut().zip(&self.state).zip(&z[k]).for_each(|((sum, y), z)| *sum = y + z);
+                equations.slopes(self.time + C[k] * h, &state, &mut self.memory, &mut slopes[k]);
+            }
             self.work.evaluations += 3;
             if slopes.iter().flatten().any(|slope| !slope.is_finite()) {
                 return Err(None);
@@ -304,7 +309,8 @@ impl<S: Equations> Radau<S> {
         let mut error = newton.at.solve(real, &right);
         if again {
             let state: Vec<f64> = self.state.iter().zip(&error).map(|(y, e)| y + e).collect();
-            let slopes = equations.slopes(self.time, &state);
+            let mut slopes = vec![0.0; n];
+            equations.slopes(self.time, &state, &mut self.memory, &mut slopes);
             self.work.evaluations += 1;
             let right: Vec<f64> = (0..n).map(|i| slopes[i] + sum(i)).collect();
             error = newton.at.solve(real, &right);

@@ -1,9 +1,10 @@
 //! A motion from its events to its samples.
 
 use super::event::{Change, Event};
-use super::radau::{Radau, WEIGHTS, Work};
+use super::radau::Work;
 use super::series::{Difference, Energy, Excursion, Sample, Series};
 use super::setting::{Discretization, Settings};
+use super::solver::Solver;
 use super::system::System;
 use crate::error::DynamicsError;
 use cdpr_robot::{Pose, Vector3, Vector6, Wrench};
@@ -32,19 +33,18 @@ pub(super) struct Wanted<'a> {
     pub(super) control: &'a Control<'a>,
 }
 
-/// First step after a change [s].
-const FIRST_STEP: f64 = 1e-5;
-
 /// A motion in progress.
 struct Run<'a> {
     system: System<'a>,
-    radau: Radau<System<'a>>,
+    solver: Solver<'a>,
     events: Vec<Event>,
     series: Series,
     /// Where the platform rests before the first event.
     rest: Pose,
     /// Time [s] and place of P [m] at each step.
     places: Vec<(f64, Vector3<f64>)>,
+    /// What earlier solutions took.
+    spent: Work,
     /// Energy that there should be [J].
     before: f64,
     /// Elements of all cables once one goes slack, where they get others.
@@ -74,10 +74,10 @@ pub(super) fn run(
         }
     }
     let cables = rest.cable_forces.len();
-    let radau = Radau::new(&system, 0.0, state, FIRST_STEP);
+    let solver = Solver::new(&system, 0.0, state, false);
     let mut run = Run {
         system,
-        radau,
+        solver,
         events,
         series: Series {
             samples: Vec::new(),
@@ -93,6 +93,7 @@ pub(super) fn run(
         },
         rest: rest.pose,
         places: Vec::new(),
+        spent: Work::default(),
         before: 0.0,
         slack,
         loose: vec![false; cables],
@@ -138,17 +139,19 @@ impl Run<'_> {
             }
         }
         self.series.energy.drift = self.energy() - self.before;
-        self.series.work = self.radau.work;
+        self.series.work = self.spent;
+        self.series.work.add(self.solver.work());
         Ok(())
     }
 
     /// Applies a change and begins with a short step.
     fn restart(&mut self, change: impl FnOnce(&mut System, &[Event], &mut Vec<f64>)) {
-        let (before, mut state) = (self.energy(), self.radau.state.clone());
+        let (before, mut state) = (self.energy(), self.solver.state().to_vec());
+        let (time, work) = (self.solver.time(), self.solver.work());
         change(&mut self.system, &self.events, &mut state);
-        let work = self.radau.work;
-        self.radau = Radau::new(&self.system, self.radau.time, state, FIRST_STEP);
-        self.radau.work.add(work);
+        let is_slack = self.slack.is_some() && self.loose.contains(&true);
+        self.solver = Solver::new(&self.system, time, state, is_slack);
+        self.spent.add(work);
         self.watch();
         // What came and went is no error.
         let change = self.energy() - before;
@@ -158,10 +161,9 @@ impl Run<'_> {
 
     /// Puts all cables on the elements for slack ones once one is.
     fn refine(&mut self) {
-        let (Some(elements), loose, time) = (self.slack, self.loose.clone(), self.radau.time) else {
-            return;
-        };
-        if loose.contains(&true) && !self.system.is_refined(elements, &loose) {
+        let (Some(elements), time) = (self.slack, self.solver.time()) else { return };
+        if self.loose.contains(&true) && !self.system.is_refined(elements, &self.loose) {
+            let loose = self.loose.clone();
             self.restart(|system, _, state| system.refine(time, elements, &loose, state));
             self.count_elements();
         }
@@ -177,35 +179,32 @@ impl Run<'_> {
     }
 
     fn energy(&self) -> f64 {
-        let power = self.system.power(self.radau.time, &self.radau.state);
-        power.kinetic + power.stored
+        let at = self.solver.snapshot(&self.system);
+        self.system.energies(&at, self.solver.state()).iter().sum()
     }
 
     fn until(&mut self, time: f64) -> Result<(), DynamicsError> {
-        while time - self.radau.time > 1e-12 * (1.0 + time) {
+        while time - self.solver.time() > 1e-12 * (1.0 + time) {
             self.refine();
-            let stalled = DynamicsError::Stalled { time: self.radau.time };
-            let step = self.radau.advance(&self.system, time).map_err(|_| stalled)?;
-            for (weight, (at, state)) in WEIGHTS.iter().zip(&step.stages) {
-                let power = self.system.power(*at, state);
-                let energy = &mut self.series.energy;
-                energy.given += weight * step.length * power.given;
-                energy.lost += weight * step.length * power.lost;
-                energy.kinetic = energy.kinetic.max(power.kinetic);
-                self.before += weight * step.length * (power.given - power.lost);
-            }
-            self.system.turn(&mut self.radau.state);
+            let stalled = DynamicsError::Stalled { time: self.solver.time() };
+            let spent = self.solver.advance(&mut self.system, time).map_err(|_| stalled)?;
+            let energy = &mut self.series.energy;
+            energy.given += spent.given;
+            energy.lost += spent.lost;
+            energy.kinetic = energy.kinetic.max(spent.kinetic);
+            self.before += spent.given - spent.lost;
             self.watch();
         }
         // Without the rounding of the steps.
-        self.radau.time = time;
+        self.solver.set_time(time);
         Ok(())
     }
 
     /// Keeps the greatest tensions, and how far the platform is from its rest.
     fn watch(&mut self) {
-        let (time, state) = (self.radau.time, &self.radau.state);
-        for (index, ends, is_slack) in self.system.tensions(time, state) {
+        let time = self.solver.time();
+        let at = self.solver.last_snapshot(&self.system);
+        for (index, ends, is_slack) in self.system.tensions(&at) {
             let [exit, anchor] = ends;
             let peak = &mut self.series.peaks[index];
             if exit.max(anchor) > peak.0 {
@@ -229,20 +228,20 @@ impl Run<'_> {
     }
 
     fn pose(&self) -> Pose {
-        let position = Vector3::from_column_slice(&self.radau.state[..3]);
+        let position = Vector3::from_column_slice(&self.solver.state()[..3]);
         Pose { position, rotation: self.system.rotation }
     }
 
     /// Keeps a sample and applies what the control decides there; false where it ends the motion.
     fn sample(&mut self, control: &Control) -> bool {
-        let state = &self.radau.state;
+        let state = self.solver.state();
         let n = state.len() / 2;
         let mut tensions = vec![[0.0; 2]; self.series.peaks.len()];
-        for (index, both, _) in self.system.tensions(self.radau.time, state) {
+        for (index, both, _) in self.system.tensions(&self.solver.snapshot(&self.system)) {
             tensions[index] = both;
         }
         let sample = Sample {
-            time: self.radau.time,
+            time: self.solver.time(),
             pose: self.pose(),
             velocity: Vector6::from_column_slice(&state[n..n + 6]),
             tensions,

@@ -59,7 +59,7 @@ pub struct Settings {
     /// and more than 0.3 mm.
     pub discretization: Option<Discretization>,
     /// Error of a step that is accepted, as a position [m]; 20 times as much with chains, whose own error is
-    /// far greater.
+    /// far greater. Once a cable is slack, steps follow from the fastest motion of the platform.
     pub tolerance: f64,
 }
 

@@ -7,14 +7,13 @@
 //! M (dv/dt, dω/dt) = (Σ F - m ω × (ω × s), Σ s × (F - m ω × (ω × s)) - ω × I ω)                    (X5)
 //! ```
 //!
-//! Newton's method needs `σ² M + σ C + K` for a real and a complex σ. Each cable has a narrow band in it,
-//! which is eliminated; six unknowns are left.
+//! [`Snapshot`] has all of it at an instant, and its memory serves for the next one.
 
-use super::band::Factored;
-use super::cable::{CableInMotion, CableMatrices, End, Instant};
-use super::radau::{Equations, Linearization};
+use super::cable::{CableInMotion, End, Instant};
+use super::matrices::Matrices;
+use super::radau::Equations;
 use cdpr_robot::{Matrix3, Rotation3, Vector3, Vector6, Wrench, orthonormalized};
-use nalgebra::{ComplexField, Const, LU, Matrix6, SMatrix};
+use nalgebra::{Matrix6, SMatrix};
 
 /// Platform and cables. The state holds the unknowns and then their velocities; the first six unknowns are
 /// the position of P [m] and the rotation vector [rad] since the last step.
@@ -59,6 +58,7 @@ impl Body {
 }
 
 /// The platform at an instant.
+#[derive(Clone, Copy, Debug, Default)]
 struct Frame {
     rotation: Matrix3<f64>,
     position: Vector3<f64>,
@@ -66,23 +66,14 @@ struct Frame {
     spin: Vector3<f64>,
 }
 
-/// Forces on the platform and its mass matrix about P.
-struct Acting {
+/// Platform and cables at an instant: forces on the platform and its mass matrix about P.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Snapshot {
+    frame: Frame,
+    /// Of each cable.
+    pub(super) cables: Vec<(End, Instant)>,
     wrench: Vector6<f64>,
-    mass: Matrix6<f64>,
-    /// Each force with its lever.
-    forces: Vec<[Vector3<f64>; 2]>,
-}
-
-/// Energies [J] and powers [W] of a state.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Power {
-    pub(super) kinetic: f64,
-    pub(super) stored: f64,
-    /// Of winches and forces.
-    pub(super) given: f64,
-    /// Lost in the cables.
-    pub(super) lost: f64,
+    pub(super) mass: Matrix6<f64>,
 }
 
 impl System<'_> {
@@ -114,88 +105,125 @@ impl System<'_> {
         End { lever, position: frame.position + lever, velocity: frame.velocity + frame.spin.cross(&lever) }
     }
 
-    fn instants(&self, time: f64, state: &[f64], frame: &Frame) -> Vec<(End, Instant)> {
-        let of = |cable: &CableInMotion| {
-            let end = Self::end(frame, cable);
-            (end, cable.at(time, &end, self.own(cable, state)))
-        };
-        self.cables.iter().map(of).collect()
-    }
-
-    fn acting(&self, frame: &Frame, instants: &[(End, Instant)]) -> Acting {
-        let body = &self.body;
-        let center = frame.rotation * body.center;
-        let inertia = frame.rotation * body.inertia * frame.rotation.transpose();
-        let mut acting = Acting { wrench: Vector6::zeros(), mass: Matrix6::zeros(), forces: Vec::new() };
-        let mut bodies = vec![(body.mass, center, body.mass * self.gravity)];
-        for (cable, (end, at)) in self.cables.iter().zip(instants) {
-            let part = cable.on_platform(at);
-            bodies.push((part.mass, end.lever, part.force + part.mass * self.gravity));
+    /// Platform and cables at a time and a state, in the memory of another snapshot.
+    pub(super) fn look(&self, time: f64, state: &[f64], at: &mut Snapshot) {
+        let frame = self.frame(state);
+        at.frame = frame;
+        at.cables.resize_with(self.cables.len(), Default::default);
+        for (cable, (end, instant)) in self.cables.iter().zip(&mut at.cables) {
+            *end = Self::end(&frame, cable);
+            cable.at(time, end, self.own(cable, state), instant);
         }
+        let body = &self.body;
+        let inertia = frame.rotation * body.inertia * frame.rotation.transpose();
         let (mut total, mut first, mut second) = (0.0, Vector3::zeros(), inertia);
         let (mut force, mut moment) =
             (body.force(), body.moment() - frame.spin.cross(&(inertia * frame.spin)));
-        for (mass, lever, pull) in bodies {
+        for (mass, lever, pull) in self.masses(at) {
             let pulling = pull - mass * frame.spin.cross(&frame.spin.cross(&lever));
             force += pulling;
             moment += lever.cross(&pulling);
             total += mass;
             first += mass * lever;
-            let arm = lever.cross_matrix();
-            second -= mass * arm * arm;
-            acting.forces.push([pull, lever]);
+            second += mass * (Matrix3::identity() * lever.norm_squared() - lever * lever.transpose());
         }
         let arm = first.cross_matrix();
-        acting.wrench = Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
-        acting.mass.fixed_view_mut::<3, 3>(0, 0).copy_from(&(Matrix3::identity() * total));
-        acting.mass.fixed_view_mut::<3, 3>(0, 3).copy_from(&-arm);
-        acting.mass.fixed_view_mut::<3, 3>(3, 0).copy_from(&arm);
-        acting.mass.fixed_view_mut::<3, 3>(3, 3).copy_from(&second);
+        at.wrench = Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
+        at.mass.fixed_view_mut::<3, 3>(0, 0).copy_from(&(Matrix3::identity() * total));
+        at.mass.fixed_view_mut::<3, 3>(0, 3).copy_from(&-arm);
+        at.mass.fixed_view_mut::<3, 3>(3, 0).copy_from(&arm);
+        at.mass.fixed_view_mut::<3, 3>(3, 3).copy_from(&second);
         for k in (0..6).filter(|k| !self.free[*k]) {
-            acting.wrench[k] = 0.0;
-            acting.mass.row_mut(k).fill(0.0);
-            acting.mass.column_mut(k).fill(0.0);
-            acting.mass[(k, k)] = 1.0;
+            at.wrench[k] = 0.0;
+            at.mass.row_mut(k).fill(0.0);
+            at.mass.column_mut(k).fill(0.0);
+            at.mass[(k, k)] = 1.0;
         }
-        acting
+    }
+
+    /// The masses that move with the platform: mass, lever and force of each, of the body and of cables.
+    fn masses(&self, at: &Snapshot) -> impl Iterator<Item = (f64, Vector3<f64>, Vector3<f64>)> {
+        let center = (self.body.mass, at.frame.rotation * self.body.center, Vector3::zeros());
+        let of_cables = self.cables.iter().zip(&at.cables).map(|(cable, (end, instant))| {
+            let part = cable.on_platform(instant);
+            (part.mass, end.lever, part.force)
+        });
+        let weighed = move |(mass, lever, pull)| (mass, lever, pull + mass * self.gravity);
+        std::iter::once(center).chain(of_cables).map(weighed)
+    }
+
+    /// A new snapshot.
+    pub(super) fn snapshot(&self, time: f64, state: &[f64]) -> Snapshot {
+        let mut snapshot = Snapshot::default();
+        self.look(time, state, &mut snapshot);
+        snapshot
     }
 
     /// Of each cable its index, its tension at exit and anchor point [N], and whether a part of it is slack.
-    pub(super) fn tensions(&self, time: f64, state: &[f64]) -> Vec<(usize, [f64; 2], bool)> {
-        let instants = self.instants(time, state, &self.frame(state));
+    pub(super) fn tensions(&self, at: &Snapshot) -> impl Iterator<Item = (usize, [f64; 2], bool)> {
         let of = |(cable, (_, at)): (&CableInMotion, &(End, Instant))| {
             (cable.index, cable.tensions(at), at.is_slack())
         };
-        self.cables.iter().zip(&instants).map(of).collect()
+        self.cables.iter().zip(&at.cables).map(of)
     }
 
     /// A cable at a state.
     pub(super) fn instant(&self, time: f64, state: &[f64], cable: &CableInMotion) -> Instant {
-        cable.at(time, &Self::end(&self.frame(state), cable), self.own(cable, state))
+        let mut instant = Instant::default();
+        cable.at(time, &Self::end(&self.frame(state), cable), self.own(cable, state), &mut instant);
+        instant
     }
 
-    /// Energies and powers.
-    pub(super) fn power(&self, time: f64, state: &[f64]) -> Power {
-        let frame = self.frame(state);
-        let instants = self.instants(time, state, &frame);
-        let v = state.len() / 2;
+    /// Kinetic energy, and energy stored in cables and by height [J].
+    pub(super) fn energies(&self, at: &Snapshot, state: &[f64]) -> [f64; 2] {
+        let (frame, v) = (&at.frame, state.len() / 2);
         let motion = Vector6::from_column_slice(&state[v..v + 6]);
-        let mass = self.acting(&frame, &instants).mass;
         let center = frame.position + frame.rotation * self.body.center;
-        let mut power = Power {
-            kinetic: 0.5 * motion.dot(&(mass * motion)),
-            stored: -self.body.mass * self.gravity.dot(&center),
-            given: self.body.force().dot(&frame.velocity) + self.body.moment().dot(&frame.spin),
-            lost: 0.0,
-        };
-        for (cable, (_, at)) in self.cables.iter().zip(&instants) {
-            let [kinetic, stored, given, lost] = cable.energy(at, self.own(cable, state), &self.gravity);
-            power.kinetic += kinetic;
-            power.stored += stored;
-            power.given += given;
-            power.lost += lost;
+        let own = [0.5 * motion.dot(&(at.mass * motion)), -self.body.mass * self.gravity.dot(&center)];
+        self.cables.iter().zip(&at.cables).fold(own, |[kinetic, stored], (cable, (_, at))| {
+            let more = cable.energy(at, self.own(cable, state), &self.gravity);
+            [kinetic + more[0], stored + more[1]]
+        })
+    }
+
+    /// Power of winches and forces, and power lost in the cables [W].
+    pub(super) fn powers(&self, at: &Snapshot, state: &[f64]) -> [f64; 2] {
+        let body = &self.body;
+        let own = body.force().dot(&at.frame.velocity) + body.moment().dot(&at.frame.spin);
+        self.cables.iter().zip(&at.cables).fold([own, 0.0], |[given, lost], (cable, (_, at))| {
+            let more = cable.powers(at, self.own(cable, state), &self.gravity);
+            [given + more[0], lost + more[1]]
+        })
+    }
+
+    /// How fast an anchor point moves along a direction, by each motion of the platform that is free.
+    pub(super) fn way(&self, along: &Vector3<f64>, lever: &Vector3<f64>) -> Vector6<f64> {
+        let turning = lever.cross(along);
+        let way = [along.x, along.y, along.z, turning.x, turning.y, turning.z];
+        Vector6::from_fn(|k, _| if self.free[k] { way[k] } else { 0.0 })
+    }
+
+    /// Takes other velocities of the platform over.
+    pub(super) fn hurry(&self, at: &mut Snapshot, state: &[f64]) {
+        let v = state.len() / 2;
+        at.frame.velocity = Vector3::from_column_slice(&state[v..v + 3]);
+        at.frame.spin = Vector3::from_column_slice(&state[v + 3..v + 6]);
+    }
+
+    /// The derivative of the state by the time.
+    pub(super) fn slopes_at(&self, at: &Snapshot, state: &[f64], slopes: &mut [f64]) {
+        let (rates, accelerations) = slopes.split_at_mut(state.len() / 2);
+        rates[..3].copy_from_slice(at.frame.velocity.as_slice());
+        let turn = rotation_rate(&Vector3::from_column_slice(&state[3..6]), &at.frame.spin);
+        rates[3..6].copy_from_slice(turn.as_slice());
+        let factors = at.mass.cholesky();
+        let motion = factors.map_or_else(|| Vector6::repeat(f64::NAN), |factors| factors.solve(&at.wrench));
+        accelerations[..6].copy_from_slice(motion.as_slice());
+        for (cable, (_, at)) in self.cables.iter().zip(&at.cables) {
+            let range = cable.first..cable.first + cable.size();
+            let slopes = [&mut rates[range.clone()], &mut accelerations[range]];
+            cable.slopes(at, self.own(cable, state), &self.gravity, slopes);
         }
-        power
     }
 
     /// Takes the rotation of a step over, so that the rotation vector begins at zero again.
@@ -208,42 +236,24 @@ impl System<'_> {
 
 impl Equations for System<'_> {
     type Linearization = Matrices;
+    type Memory = Snapshot;
 
-    fn slopes(&self, time: f64, state: &[f64]) -> Vec<f64> {
-        let frame = self.frame(state);
-        let instants = self.instants(time, state, &frame);
-        let acting = self.acting(&frame, &instants);
-        let mut slopes = vec![0.0; state.len()];
-        let (rates, accelerations) = slopes.split_at_mut(state.len() / 2);
-        rates[..3].copy_from_slice(frame.velocity.as_slice());
-        let turn = rotation_rate(&Vector3::from_column_slice(&state[3..6]), &frame.spin);
-        rates[3..6].copy_from_slice(turn.as_slice());
-        let motion = acting
-            .mass
-            .cholesky()
-            .map_or_else(|| Vector6::repeat(f64::NAN), |factors| factors.solve(&acting.wrench));
-        accelerations[..6].copy_from_slice(motion.as_slice());
-        for (cable, (_, at)) in self.cables.iter().zip(&instants) {
-            let range = cable.first..cable.first + cable.size();
-            let slopes = [&mut rates[range.clone()], &mut accelerations[range]];
-            cable.slopes(at, self.own(cable, state), &self.gravity, slopes);
-        }
-        slopes
+    fn slopes(&self, time: f64, state: &[f64], at: &mut Snapshot, slopes: &mut [f64]) {
+        self.look(time, state, at);
+        self.slopes_at(at, state, slopes);
     }
 
     fn linearize(&self, time: f64, state: &[f64]) -> Matrices {
-        let frame = self.frame(state);
-        let instants = self.instants(time, state, &frame);
-        let acting = self.acting(&frame, &instants);
+        let snapshot = self.snapshot(time, state);
         let [mut stiffness, mut damping] = [Matrix6::zeros(); 2];
-        for [force, lever] in &acting.forces {
+        for (_, lever, force) in self.masses(&snapshot) {
             let both = force * lever.transpose();
-            let turning = 0.5 * (both + both.transpose()) - force.dot(lever) * Matrix3::identity();
+            let turning = 0.5 * (both + both.transpose()) - force.dot(&lever) * Matrix3::identity();
             let mut block = stiffness.fixed_view_mut::<3, 3>(3, 3);
             block -= turning;
         }
         let mut cables = Vec::new();
-        for (cable, (end, at)) in self.cables.iter().zip(&instants) {
+        for (cable, (end, at)) in self.cables.iter().zip(&snapshot.cables) {
             let (matrices, at_end) = cable.matrices(at, &end.lever, self.own(cable, state));
             let mut moves = SMatrix::<f64, 3, 6>::zeros();
             moves.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
@@ -259,7 +269,7 @@ impl Equations for System<'_> {
             }
             cables.iter_mut().flat_map(|cable| &mut cable.coupling).flatten().for_each(|row| row[k] = 0.0);
         }
-        Matrices { mass: acting.mass, stiffness, damping, cables, size: self.size() }
+        Matrices { mass: snapshot.mass, stiffness, damping, cables, size: self.size() }
     }
 
     fn scale(&self) -> &[f64] {
@@ -278,110 +288,4 @@ fn rotation_rate(turn: &Vector3<f64>, spin: &Vector3<f64>) -> Vector3<f64> {
     };
     let once = turn.cross(spin);
     spin - 0.5 * once + factor * turn.cross(&once)
-}
-
-/// Mass, stiffness and damping of platform and cables.
-#[derive(Clone, Debug)]
-pub(super) struct Matrices {
-    mass: Matrix6<f64>,
-    stiffness: Matrix6<f64>,
-    damping: Matrix6<f64>,
-    cables: Vec<CableMatrices>,
-    size: usize,
-}
-
-/// Factors of `σ² M + σ C + K`: L and D of each cable with `L⁻¹` times its coupling to the platform, of the
-/// rows from the first that is coupled; and the platform's.
-pub(super) struct Factors<T: ComplexField + Copy> {
-    shift: T,
-    cables: Vec<(Factored<T>, Vec<[T; 6]>)>,
-    platform: LU<T, Const<6>, Const<6>>,
-}
-
-impl Linearization for Matrices {
-    type Factors<T: ComplexField<RealField = f64> + Copy> = Factors<T>;
-
-    fn factor<T: ComplexField<RealField = f64> + Copy>(&self, shift: T) -> Option<Factors<T>> {
-        let real = T::from_real;
-        let mut platform =
-            self.mass.map(real) * (shift * shift) + self.damping.map(real) * shift + self.stiffness.map(real);
-        let mut cables = Vec::with_capacity(self.cables.len());
-        for cable in &self.cables {
-            let mut band = cable.stiffness.map(&cable.damping, |k, c| real(k) + shift * real(c));
-            for (i, mass) in cable.mass.iter().enumerate() {
-                band.add(i, i, shift * shift * real(*mass));
-            }
-            let factored = band.factor()?;
-            let mut coupling = cable.coupling(shift);
-            let mut rows = vec![T::zero(); cable.mass.len()];
-            for column in 0..6 {
-                coupling.iter().zip(&mut rows[cable.coupled..]).for_each(|(row, value)| *value = row[column]);
-                factored.forward(&mut rows, cable.coupled);
-                coupling.iter_mut().zip(&rows[cable.coupled..]).for_each(|(row, value)| row[column] = *value);
-            }
-            for (row, inverse) in coupling.iter().zip(&factored.inverse_pivots()[cable.coupled..]) {
-                for i in 0..6 {
-                    for j in 0..6 {
-                        platform[(i, j)] -= row[i] * *inverse * row[j];
-                    }
-                }
-            }
-            cables.push((factored, coupling));
-        }
-        let platform = platform.lu();
-        platform.is_invertible().then_some(Factors { shift, cables, platform })
-    }
-
-    fn solve<T: ComplexField<RealField = f64> + Copy>(&self, by: &Factors<T>, right: &[T]) -> Vec<T> {
-        let (real, shift, n) = (T::from_real, by.shift, self.size);
-        let (rates, accelerations) = right.split_at(n);
-        // (σ² M + σ C + K) x = M a + (σ M + C) r for the unknowns, σ x - r for the velocities.
-        let six = |values: &[T]| Vector6::from_fn(|i, _| values[i]).map(|value: T| value);
-        let mixed = six(accelerations) + six(rates) * shift;
-        let mut on_platform = self.mass.map(real) * mixed + self.damping.map(real) * six(rates);
-        let mut found = vec![T::zero(); 2 * n];
-        for (cable, (factored, coupling)) in self.cables.iter().zip(&by.cables) {
-            let size = cable.mass.len();
-            let own = &rates[cable.first..cable.first + size];
-            let mut load = cable.damping.times(own, |c, x| real(c) * x);
-            for i in 0..size {
-                load[i] += real(cable.mass[i]) * (accelerations[cable.first + i] + shift * own[i]);
-            }
-            for i in cable.coupled..size {
-                for k in 0..6 {
-                    let damping = real(cable.coupling[i][1][k]);
-                    load[i] += damping * rates[k];
-                    on_platform[k] += damping * own[i];
-                }
-            }
-            factored.forward(&mut load, 0);
-            let ends = load.iter().zip(factored.inverse_pivots()).skip(cable.coupled);
-            for ((value, inverse), row) in ends.zip(coupling) {
-                (0..6).for_each(|k| on_platform[k] -= row[k] * *inverse * *value);
-            }
-            found[cable.first..cable.first + size].copy_from_slice(&load);
-        }
-        let motion = by.platform.solve(&on_platform).unwrap_or_else(|| on_platform * T::from_real(f64::NAN));
-        found[..6].copy_from_slice(motion.as_slice());
-        for (cable, (factored, coupling)) in self.cables.iter().zip(&by.cables) {
-            let own = &mut found[cable.first..cable.first + cable.mass.len()];
-            for (value, row) in own[cable.coupled..].iter_mut().zip(coupling) {
-                (0..6).for_each(|k| *value -= row[k] * motion[k]);
-            }
-            factored.backward(own);
-        }
-        for i in 0..n {
-            found[n + i] = shift * found[i] - rates[i];
-        }
-        found
-    }
-}
-
-impl CableMatrices {
-    /// The rows of the unknowns that are coupled.
-    fn coupling<T: ComplexField<RealField = f64> + Copy>(&self, shift: T) -> Vec<[T; 6]> {
-        let real = T::from_real;
-        let at = |[k, c]: &[Vector6<f64>; 2]| std::array::from_fn(|i| real(k[i]) + shift * real(c[i]));
-        self.coupling[self.coupled..].iter().map(at).collect()
-    }
 }

@@ -1355,6 +1355,7 @@ class Robot:
         moment: _Row | None = None,
         pairs: bool = False,
         swing: float | None = None,
+        factors: Mapping[str, float | tuple[float, float]] | None = None,
         free: Sequence[str] | None = None,
     ) -> Safety[None]:
         """Finds where the platform comes to rest when a cable breaks, and whether the others bear that.
@@ -1375,6 +1376,11 @@ class Robot:
             Whether every pair of cables breaks, too.
         swing : float, optional
             For how long the motion after each break is followed [s].
+        factors : dict, optional
+            Partial factors of a norm, all four: `permanent` multiplies the weight of platform and cables,
+            `variable` payload, force and moment, `resistance` divides the breaking forces (a pair: the second
+            one for broken cables), `accidental` multiplies the loads where a cable is broken (a pair: weights,
+            other loads).
         free : sequence of str, optional
             Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
@@ -1397,6 +1403,9 @@ class Robot:
         >>> robot = cdpr.Robot.from_file("cogiro")
         >>> robot.safety([0, 0, 2]).moved.shape  # [m]
         (8,)
+        >>> factors = {"permanent": 1.35, "variable": 1.5, "resistance": 1.5, "accidental": 1.0}
+        >>> cdpr.Robot.from_file("caroca").safety([0, 0, 1.75], factors=factors).utilization.shape
+        (9,)
         """
     @overload
     def safety(
@@ -1408,6 +1417,7 @@ class Robot:
         moment: ArrayLike | None = None,
         pairs: bool = False,
         swing: float | None = None,
+        factors: Mapping[str, float | tuple[float, float]] | None = None,
         free: Sequence[str] | None = None,
     ) -> Safety[_Words]: ...
     @overload
@@ -2706,6 +2716,15 @@ class Safety(Generic[_R]):
     @property
     def peak_tension(self) -> _Floats:
         """Greatest tension of the other cables in that motion, at either end [N], (k,)."""
+    @property
+    def utilization(self) -> _Floats:
+        """Greatest utilization of a cable by partial factors, of the whole robot, then after each break, (k + 1,):
+        tension under the design loads times the factor of the resistance over breaking force, at rest and in
+        the motion that follows; NaN unless `factors` is given, and where it is not known.
+        """
+    @property
+    def utilization_reasons(self) -> list[Any]:
+        """Why a utilization is not known, empty where it is; a list of k + 1, empty unless `factors` is given."""
     @property
     def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one pose."""

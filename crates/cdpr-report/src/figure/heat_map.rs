@@ -42,11 +42,15 @@ pub enum MapQuantity {
     WinchAmplitude,
     /// Displacement in the weather and under the load, in wind of the worst direction.
     Weather,
+    /// Greatest utilization of a cable, with all cables, each of them broken and in the weather.
+    Utilization,
+    /// Motion of the platform after the break that moves it farthest.
+    AfterBreak,
 }
 
 impl MapQuantity {
     /// All quantities.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 16] = [
         Self::Deflection,
         Self::LeastStiffness,
         Self::PlatformFrequency,
@@ -61,6 +65,8 @@ impl MapQuantity {
         Self::Amplitude,
         Self::WinchAmplitude,
         Self::Weather,
+        Self::Utilization,
+        Self::AfterBreak,
     ];
 
     /// Name of its figure file.
@@ -80,6 +86,8 @@ impl MapQuantity {
             Self::Amplitude => "amplitude",
             Self::WinchAmplitude => "winch_amplitude",
             Self::Weather => "weather",
+            Self::Utilization => "utilization",
+            Self::AfterBreak => "after_break",
         }
     }
 
@@ -122,7 +130,7 @@ impl MapQuantity {
         matches!(self, Self::Amplitude | Self::WinchAmplitude)
     }
 
-    /// Words for the title, label of the colour bar, and unit.
+    /// Words for the title, label of the colour bar, and unit, empty of a ratio.
     fn words(self) -> (&'static str, &'static str, &'static str) {
         match self {
             Self::Deflection => ("static deflection", "|dp|", "mm"),
@@ -140,6 +148,8 @@ impl MapQuantity {
             Self::Amplitude => ("largest amplitude by a force", "amplitude", "mm/N"),
             Self::WinchAmplitude => ("largest amplitude by a winch", "amplitude", "mm/mm"),
             Self::Weather => ("displacement in the weather", "|dp|", "mm"),
+            Self::Utilization => ("greatest utilization, whole and after each break", "utilization", ""),
+            Self::AfterBreak => ("motion after the worst break", "|dp|", "mm"),
         }
     }
 
@@ -160,6 +170,8 @@ impl MapQuantity {
             Self::Amplitude => row.amplitude_mm_per_n,
             Self::WinchAmplitude => row.winch_mm_per_mm,
             Self::Weather => row.weather_mm,
+            Self::Utilization => row.utilization,
+            Self::AfterBreak => row.break_mm,
         }
     }
 }
@@ -189,7 +201,11 @@ fn values(
     let (words, label, unit) = quantity.words();
     let rows: Vec<_> = plane.positions.iter().map(|position| &summary.rows[*position]).collect();
     let values = rows.iter().map(|row| quantity.value(row)).collect();
-    let mut map = ColorMap::new(plane.cells()?, values, quantity.name(), &format!("{label} [{unit}]"))?;
+    let (label, unit) = match unit {
+        "" => (label.to_owned(), String::new()),
+        unit => (format!("{label} [{unit}]"), format!(" {unit}")),
+    };
+    let mut map = ColorMap::new(plane.cells()?, values, quantity.name(), &label)?;
     let mut lines = Vec::new();
     let mut shown: fn(f64) -> String = |value| number(value, 3);
     if let Some(shaking) = summary.shaking.filter(|_| quantity.is_amplitude()) {
@@ -200,13 +216,17 @@ fn values(
     if let Some(weather) = summary.weather.filter(|_| quantity == MapQuantity::Weather) {
         lines.push(weather.conditions());
     }
+    if let Some(factors) = summary.factors.filter(|_| quantity == MapQuantity::Utilization) {
+        shown = |value| digits(value, 3);
+        lines.push(factors.conditions());
+    }
     let hatched = |index: usize| !quantity.is_held(rows[index]);
     let held = (0..rows.len()).filter(|index| !hatched(*index)).count();
     let borne = if summary.is_loaded() { format!(", {}", quantity.under_load()) } else { String::new() };
     lines.insert(
         0,
         format!(
-            "{} {unit} to {} {unit}; {held} of {} positions held with all tensions within limits, the others \
+            "{}{unit} to {}{unit}; {held} of {} positions held with all tensions within limits, the others \
                 are hatched",
             shown(map.least),
             shown(map.greatest),

@@ -50,7 +50,7 @@ impl Truncated {
     /// Middle and width, where the density is a line.
     fn line(&self) -> Option<[f64; 2]> {
         let is_line = change(self.low, self.high) < LINEAR;
-        is_line.then(|| [0.5 * (self.low + self.high), self.high - self.low])
+        is_line.then_some([0.5 * (self.low + self.high), self.high - self.low])
     }
 
     pub(crate) fn quantile(&self, u: f64) -> f64 {

@@ -4,6 +4,7 @@
 use crate::file::cable_law::CableLaw;
 use crate::file::grid::GridSpec;
 use crate::file::output::{AmplitudeSpec, Output};
+use crate::file::price::PriceSpec;
 use crate::file::sensitivity_spec::SensitivitySpec;
 use crate::file::weather::WeatherSpec;
 use cdpr_robot::{Coordinate, TensionDistribution, TensionReference, Vector3, Wrench};
@@ -92,6 +93,10 @@ pub struct StudyFile {
     /// of a point (`b1`), or of those of a group of parameters (`b`). Groups may overlap.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub groups: IndexMap<String, Vec<String>>,
+    /// Prices, from which `cdpr study tolerances` buys: of tolerances by the entries of the error models,
+    /// and of calibrations by names of their own. A tolerance without a price stays as it is.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub prices: IndexMap<String, PriceSpec>,
     /// Surfaces by name: two parameters vary over a grid, and all others are nominal.
     #[serde(default)]
     pub surfaces: IndexMap<String, SurfaceSpec>,

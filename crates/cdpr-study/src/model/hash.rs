@@ -25,6 +25,7 @@ impl Study {
             (sampling.title, sampling.observations) = Default::default();
         }
         file.groups.clear();
+        file.prices.clear();
         file.surfaces.clear();
         self.hash_of(&file)
     }

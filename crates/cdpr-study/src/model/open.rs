@@ -200,6 +200,12 @@ impl Study {
             };
             return Err(self.invalid("payload", file.payload, expected));
         }
+        for (name, price) in &file.prices {
+            let is_entry = |name: &str| file.error_models.values().any(|model| model.contains_key(name));
+            if let Some((field, value, expected)) = price.invalid(name, is_entry) {
+                return Err(self.invalid(&format!("prices.{name}{field}"), value, &expected));
+            }
+        }
         if !self.robot.distribution.is_smooth() {
             let expected =
                 "nearest or least_2_norm, in the study or the robot: other norms jump between observations";

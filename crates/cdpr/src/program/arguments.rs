@@ -3,6 +3,7 @@
 //! A parser says what is wrong with the text; clap adds the argument and the value.
 
 pub(crate) mod endings;
+mod factors;
 mod figure;
 mod limit;
 pub(crate) mod poses;
@@ -13,6 +14,7 @@ mod uncertainty;
 mod weather;
 mod with;
 
+pub(crate) use factors::{FACTORS, factors};
 pub(crate) use figure::{FigureArgument, figure, write_figures};
 pub(crate) use limit::{POSITION, limit, upper};
 pub(crate) use printing::{Format, Overwrite, Printing, print_record};

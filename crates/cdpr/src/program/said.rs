@@ -43,11 +43,8 @@ pub(crate) fn detail(text: fmt::Arguments) {
     }
 }
 
-/// Says why maps and paths of a robot have no frequencies, if it is so.
-pub(crate) fn note_missing_frequencies(robot: &Robot) {
-    if robot.lacks_inertia() {
-        note(format_args!(
-            "no frequencies: the robot has no `platform.inertia`, and only `modes` assumes one"
-        ));
-    }
+/// Why maps and paths of a robot have no frequencies, if it is so.
+pub(crate) fn missing_frequencies(robot: &Robot) -> Option<&'static str> {
+    let reason = "no frequencies: the robot has no `platform.inertia`, and only `modes` assumes one";
+    robot.lacks_inertia().then_some(reason)
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// A good call of each command in the folder of all cases.
-const CALLS: [&str; 31] = [
+const CALLS: [&str; 32] = [
     "cable catenary weight=1,stiffness=1e6 --length 4.3 --end 4,-1",
     "inverse robot.json --pose 0,0,1.75",
     "direct robot.json --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44",
@@ -17,6 +17,7 @@ const CALLS: [&str; 31] = [
     "stiffness robot.json --pose 0,0,1.75",
     "capacity robot.json --pose 0,0,1.75",
     "safety robot.json --pose 0,0,1.75",
+    "safety robot.json --pose 0,0,1.75 --with permanent=1.35,variable=1.5,accidental=1:0.5,resistance=2",
     "path robot.json --poses poses.txt --payload 50",
     "workspace robot.json --region ::3,::3,1.75 --payload 50 --out out",
     "design robot.json design.json --out out/best.json",

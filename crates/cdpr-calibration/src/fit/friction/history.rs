@@ -23,6 +23,9 @@ use serde::Serialize;
 /// Change of a cable's length [m] up to which its winch has not moved.
 const STANDS: f64 = 1e-4;
 
+/// Times that tensions at the platform are corrected by the weight of the cables: it hardly depends on them.
+const ROUNDS: usize = 3;
+
 /// A tension at a winch as it is measured and as the model has it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct WinchResidual {
@@ -48,6 +51,8 @@ pub(super) struct History<'a> {
     /// The pose of each row, or that of the first one alone.
     poses: Vec<Pose>,
     free: &'a [Coordinate],
+    /// Tensions at the platform that the first row is nearest to [N], where the robot has a choice.
+    reference: Option<Vec<f64>>,
     /// Cables that are compared.
     pub(super) cables: Vec<usize>,
     /// The wheels without friction, where their tensions at the platform do not depend on it.
@@ -90,8 +95,9 @@ impl<'a> History<'a> {
         let loads: Vec<Load> = rows.iter().map(|row| model.load(row, robot)).collect();
         let of_platform =
             |i: &usize| rows.iter().any(|row| row.value(tension(*i, CableEnd::Anchor)).is_some());
-        let mut history = Self { robot, rows, loads, poses, free, cables, still: None };
+        let mut history = Self { robot, rows, loads, poses, free, reference: None, cables, still: None };
         history.check(measured.noise_is_stated)?;
+        history.reference = history.first_tensions()?;
         let measured: Vec<usize> = history.cables.iter().copied().filter(of_platform).collect();
         if !measured.is_empty() {
             history.cables = measured;
@@ -130,15 +136,36 @@ impl<'a> History<'a> {
         self.poses.len() > 1
     }
 
+    /// The tensions at the platform that belong to those of the winches in the first row, if all are read: less
+    /// by what each cable weighs between its wheel and the platform.
+    fn first_tensions(&self) -> Result<Option<Vec<f64>>, CalibrationError> {
+        let n = self.robot.cables.len();
+        let winch = |i: usize| self.rows[0].value(tension(i, CableEnd::Exit));
+        let winches: Vec<f64> = (0..n).filter_map(winch).collect();
+        if self.drives() || !self.free.is_empty() || winches.len() < n {
+            return Ok(None);
+        }
+        let mut reference = winches.clone();
+        for _ in 0..ROUNDS {
+            let wanted = WantedPose::at(&self.poses[0]).tension_reference(&reference);
+            let first = LoadHistory::begin(self.robot, wanted, &self.loads[0], PulleyFriction::default())
+                .map_err(CalibrationError::row(self.rows[0].line))?;
+            let anchors = first.now.solution.equilibrium.tensions();
+            for (i, at) in first.now.pulleys.iter().enumerate() {
+                reference[i] = winches[i] - (at.tension - anchors[i]);
+            }
+        }
+        Ok(Some(reference))
+    }
+
     /// The wheels of each row by the model alone.
     fn modelled(&self, friction: PulleyFriction) -> Result<Vec<State>, CalibrationError> {
-        let n = self.robot.cables.len();
-        let winches: Vec<f64> =
-            (0..n).filter_map(|i| self.rows[0].value(tension(i, CableEnd::Exit))).collect();
         let begin = |k: usize| {
             let wanted = WantedPose::at(&self.poses[k]).free(self.free);
-            let is_chosen = !self.drives() && self.free.is_empty() && winches.len() == n;
-            let wanted = if is_chosen { wanted.tension_reference(&winches) } else { wanted };
+            let wanted = match &self.reference {
+                Some(reference) => wanted.tension_reference(reference),
+                None => wanted,
+            };
             LoadHistory::begin(self.robot, wanted, &self.loads[k], friction)
         };
         let mut states = Vec::with_capacity(self.rows.len());

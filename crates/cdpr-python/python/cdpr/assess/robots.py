@@ -77,7 +77,14 @@ class ToleranceBudget(Table):
     factor = Column("factor", "Factor of each tolerance; 1 if it may stay as it is.", "tolerances")
     share = Column("share", "Share of the variance that it causes, to first order.", "tolerances")
     halved_mm = Column("halved_mm", "Predicted quantile [mm] if it alone is halved.", "tolerances")
-    cost = Column("cost", "Cost now; tightened, it is divided by the factor.", "tolerances")
+    cost = Column("cost", "Cost as it is.", "tolerances")
+    cost_then = Column("cost_then", "Cost with the factor.", "tolerances")
+    mm_per_cost = Column(
+        "mm_per_cost", "By how much the quantile falls for a further unit of the cost [mm].", "tolerances"
+    )
+    calibrations = Value(
+        "calibrations", "Calibrations that have a price, dictionaries: `name`, `cost`, `bought`, `saves`."
+    )
     limit_mm = Value("limit_mm", "Limit of the error [mm].")
     least_mm = Value("least_mm", "The error without any deviation [mm]: no tolerance goes below it.")
     explained = Value("explained", "Share of the variance that the linear law explains.")
@@ -107,7 +114,7 @@ def tolerances(
     ----------
     study : path or dict
         Study file, or its content as a dictionary, as `cdpr.study.run` takes it; its error model holds
-        the tolerances.
+        the tolerances, and its `prices` what these and calibrations cost.
     sampling : str
         Name of the sampling: pose, load and error model.
     limit_mm : float
@@ -119,7 +126,7 @@ def tolerances(
         Share of the robots that are to keep the limit.
     costs : dict of float, optional
         Of the tolerances as they are, by entry of the error model; 1 if left out. Half costs twice as
-        much.
+        much. None where the study has prices.
     observations : int, default 20000
         Independent robots with which the budget is verified.
     threads : int, optional

@@ -4,6 +4,7 @@ use crate::drawing::axis::extent;
 use crate::page::elements::numeric;
 use crate::page::plot::{BLUE, Plot, RED};
 use cdpr_calibration::{Fit, UncertaintyMap, arrows};
+use cdpr_robot::Plane;
 use maud::{Markup, PreEscaped, html};
 use std::fmt::Write;
 use std::ops::Range;
@@ -25,7 +26,12 @@ pub(super) fn in_space(found: &Fit) -> Markup {
     }
     let norm = |v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
     let longest = arrows.iter().map(|(_, before, _)| norm(before)).fold(0.0, f64::max);
-    let views = [("from above", [0, 1]), ("from the front", [0, 2])];
+    let views = match found.robot.plane {
+        None => vec![("from above", [0, 1]), ("from the front", [0, 2])],
+        Some(Plane::Xy) => vec![("in the plane of the robot", [0, 1])],
+        Some(Plane::Xz) => vec![("in the plane of the robot", [0, 2])],
+        Some(Plane::Yz) => vec![("in the plane of the robot", [1, 2])],
+    };
     html! {
         @for (name, axes) in views {
             figure {
@@ -87,7 +93,7 @@ pub(super) fn workspace(map: &UncertaintyMap) -> Markup {
                     }
                     figcaption {
                         "Standard deviation of a coordinate of the position " (name) ", at "
-                        (numeric(map.z, 3)) " m: no colour is 0, the strongest " (numeric(1e3 * most, 3))
+                        (map.axes[2]) " = " (numeric(map.at, 3)) " m: no colour is 0, the strongest " (numeric(1e3 * most, 3))
                         " mm; left out where the level platform is not held."
                     }
                 }
@@ -102,13 +108,14 @@ fn squares(map: &UncertaintyMap, values: &[Option<f64>], most: f64) -> String {
         let half = 0.5 * (end - start) / (values.len().max(2) - 1) as f64;
         start - half..end + half
     };
-    let (across, up) = (edges(&map.x), edges(&map.y));
-    let mut plot = Plot::new([SIDE, SIDE], ("x [m]", across.clone()), ("y [m]", up.clone()));
-    let width = (plot.x(across.end) - plot.x(across.start)) / map.x.len() as f64;
-    let height = (plot.y(up.start) - plot.y(up.end)) / map.y.len() as f64;
+    let (across, up) = (edges(&map.columns), edges(&map.rows));
+    let [u, v] = [0, 1].map(|k| format!("{} [m]", map.axes[k]));
+    let mut plot = Plot::new([SIDE, SIDE], (&u, across.clone()), (&v, up.clone()));
+    let width = (plot.x(across.end) - plot.x(across.start)) / map.columns.len() as f64;
+    let height = (plot.y(up.start) - plot.y(up.end)) / map.rows.len() as f64;
     for (k, value) in values.iter().enumerate() {
         let Some(value) = value else { continue };
-        let (at_x, at_y) = (map.x[k % map.x.len()], map.y[k / map.x.len()]);
+        let (at_x, at_y) = (map.columns[k % map.columns.len()], map.rows[k / map.columns.len()]);
         let (x, y) = (plot.x(at_x) - 0.5 * width, plot.y(at_y) - 0.5 * height);
         plot.add(format_args!(
             "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"{BLUE}\" \

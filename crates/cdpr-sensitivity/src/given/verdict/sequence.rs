@@ -23,7 +23,7 @@ const BLOCK: usize = 8;
 ///
 /// `rows` has the columns of all rows in their order, `drawn` those of the rows that the tests take.
 pub(crate) fn coordinates(rows: &[&[f64]], drawn: &[Vec<f64>], kinds: &[Kind], seed: u64) -> Vec<bool> {
-    let mut found: Vec<bool> = rows.par_iter().map(|column| fills(column)).collect();
+    let mut found: Vec<bool> = rows.par_iter().map(|column| fills(column) && !repeats(column)).collect();
     for (input, (z, other)) in farthest(drawn, seed).into_iter().enumerate() {
         if z > LARGEST_Z && fill_a_square(&drawn[input], &drawn[other]) {
             (found[input], found[other]) = (true, true);
@@ -51,6 +51,11 @@ fn fill_a_square(one: &[f64], other: &[f64]) -> bool {
         let freedoms = ((side - 1) * (side - 1)) as f64;
         square <= freedoms + 5.0 * (2.0 * freedoms).sqrt() + n * allowed
     })
+}
+
+/// Whether each row has the value of that eight rows before, as in a design whose levels take turns.
+fn repeats(column: &[f64]) -> bool {
+    column.windows(BLOCK + 1).all(|rows| rows[0] == rows[BLOCK])
 }
 
 /// Whether eight rows in turn have a value in each eighth, in half of all eights from a first row on.

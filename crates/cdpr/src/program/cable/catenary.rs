@@ -5,7 +5,7 @@ use crate::program::arguments::{self, Named, Printing, named};
 use crate::program::error::ProgramError;
 use crate::program::questions;
 use cdpr_cable::{Cable, Known, Vector2};
-use cdpr_robot::{Gravity, plausible, visible};
+use cdpr_robot::{Doubt, Gravity, plausible, visible};
 use cdpr_study::open_cable;
 use serde::Serialize;
 use std::path::Path;
@@ -35,22 +35,30 @@ pub(crate) struct Settings {
 
 pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let chord = settings.end.map(|[x, z]| x.hypot(z));
-    let [weight, stiffness] = properties(&settings.cable)?;
+    let ([weight, stiffness], breaking) = properties(&settings.cable)?;
     questions::ask(plausible::span(weight, stiffness, settings.length, chord));
     let answer = Answer::new(settings, &Cable::linear(weight, stiffness))?;
+    let tension = answer.tension.anchor.max(answer.tension.exit);
+    questions::ask(breaking.filter(|force| tension > *force).map(|force| Doubt {
+        quantity: "tension".to_owned(),
+        value: format!("{} N", visible(tension, 3)),
+        why: format!("above the breaking force of the cable, {} N", visible(force, 3)),
+        meant: "a smaller tension, or a stronger cable".to_owned(),
+    }));
     Ok(settings.printing.format().print(&answer, Answer::print)?)
 }
 
-/// Weight per unstrained length [N/m] and axial stiffness [N].
-fn properties(cable: &str) -> Result<[f64; 2], ProgramError> {
+/// Weight per unstrained length [N/m] and axial stiffness [N], and the breaking force [N] if it is known.
+fn properties(cable: &str) -> Result<([f64; 2], Option<f64>), ProgramError> {
     if !cable.contains('=') || Path::new(cable).exists() {
         let cable = open_cable(Path::new(cable))?.properties;
-        return Ok([cable.linear_density * Gravity::STANDARD, cable.axial_stiffness()]);
+        let known = [cable.linear_density * Gravity::STANDARD, cable.axial_stiffness()];
+        return Ok((known, cable.breaking_force));
     }
     let typed: Named = named(cable).map_err(|error| ProgramError::Usage(format!("{cable}: {error}")))?;
     let [weight, stiffness] = typed.all("the cable", ["weight", "stiffness"])?;
     let missing = || ProgramError::Usage(format!("{cable}: expected weight=N/m,stiffness=N"));
-    Ok([weight.unwrap_or_default(), stiffness.ok_or_else(missing)?])
+    Ok(([weight.unwrap_or_default(), stiffness.ok_or_else(missing)?], None))
 }
 
 /// The cable in equilibrium, in SI units.

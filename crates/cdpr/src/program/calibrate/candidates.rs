@@ -7,7 +7,7 @@ use crate::program::lists;
 use crate::program::output::{Ending, progress};
 use crate::program::questions;
 use cdpr_calibration::{Calibration, Measurement};
-use cdpr_robot::{Parameter, Pose, Robot};
+use cdpr_robot::{Coordinate, Pose, Robot};
 use cdpr_statics::Load;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -76,14 +76,13 @@ pub(crate) struct Known {
 }
 
 impl Known {
-    /// The standard deviation of each parameter; correlations of an error model do not count.
-    pub(super) fn deviations(&self, robot: &Robot) -> Result<Vec<f64>, ProgramError> {
-        let model = self.uncertainty.needed(robot)?;
-        let mut variances = vec![0.0; Parameter::of(robot).len()];
-        for term in &model.terms {
-            variances[term.parameter] += (term.factor * model.inputs[term.input].law.std()).powi(2);
-        }
-        Ok(variances.iter().map(|variance: &f64| variance.sqrt()).collect())
+    /// A calibration without poses of a robot whose parameters are uncertain as stated, correlations included.
+    pub(super) fn calibration(
+        &self,
+        robot: &Robot,
+        free: &[Coordinate],
+    ) -> Result<Calibration, ProgramError> {
+        Ok(Calibration::of_model(robot, &self.uncertainty.needed(robot)?)?.with_free(free))
     }
 
     /// What is measured.

@@ -6,7 +6,7 @@ use crate::program::calibrate::candidates::{Candidates, Known, add, ending};
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, Ending, patiently, print_sentence, table};
 use crate::program::questions;
-use cdpr_calibration::{Calibration, Combination, Identifiability, ParameterValue};
+use cdpr_calibration::{Calibration, Combination, Identifiability};
 use cdpr_robot::{Pose, Robot, counted, rounded, shown, significant};
 use cdpr_statics::Load;
 use serde::Serialize;
@@ -42,8 +42,7 @@ pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let robot = settings.preference.open_robot(settings.robot.path())?;
     let candidates = settings.candidates.read(&robot)?;
     let measurements = settings.known.measurements(&robot)?;
-    let uncertainties = settings.known.deviations(&robot)?;
-    let mut calibration = Calibration::new(&robot, &uncertainties)?.with_free(&settings.free.free);
+    let mut calibration = settings.known.calibration(&robot, &settings.free.free)?;
     let load = Load::payload(settings.payload);
     questions::about_load(&robot, &load);
     let all = candidates.len();
@@ -93,13 +92,13 @@ impl Output {
     ) -> Self {
         let part = |combination: &Combination| Part {
             signal_to_noise: combination.signal_to_noise,
-            weights: pairs(&combination.weights),
+            weights: combination.weights.iter().map(|of| (of.cause.clone(), of.value)).collect(),
         };
         Self {
             refused,
             identifiable: found.identifiable.iter().map(part).collect(),
             unidentifiable: found.unidentifiable.iter().map(part).collect(),
-            remaining: pairs(&found.remaining),
+            remaining: found.remaining.iter().map(|of| (of.parameter.to_string(), of.value)).collect(),
             best_poses: calibration
                 .best_poses(choose)
                 .iter()
@@ -150,7 +149,8 @@ fn print_details(output: &Output) {
         let largest = part.weights.iter().take(5).map(|(name, weight)| format!("{weight:+.2} {name}"));
         largest.collect::<Vec<_>>().join(" ")
     };
-    let mut rows = table(&["signal/noise", "combination of parameters, each in units of its uncertainty"]);
+    let mut rows =
+        table(&["signal/noise", "combination of what is uncertain, each in units of its uncertainty"]);
     for part in output.identifiable.iter().chain(&output.unidentifiable) {
         rows.add_row([significant(part.signal_to_noise, 4), words(part)]);
     }
@@ -160,9 +160,4 @@ fn print_details(output: &Output) {
         rows.add_row([name.clone(), format!("{:.2}", 100.0 * ratio)]);
     }
     println!("{rows}");
-}
-
-/// Names of parameters with their numbers.
-fn pairs<C: FromIterator<(String, f64)>>(values: &[ParameterValue]) -> C {
-    values.iter().map(|of| (of.parameter.to_string(), of.value)).collect()
 }

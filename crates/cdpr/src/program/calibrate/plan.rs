@@ -9,7 +9,7 @@ use crate::program::calibrate::candidates::{Candidates, Known, add, ending};
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, Ending, patiently, print_sentence, table};
 use crate::program::questions;
-use cdpr_calibration::{AtWork, Calibration, Criterion, PosePlan, Quality};
+use cdpr_calibration::{AtWork, Criterion, PosePlan, Quality};
 use cdpr_robot::{Pose, Robot, counted, rounded, shown, significant};
 use cdpr_study::OutputLimit;
 use clap::ValueEnum;
@@ -39,8 +39,9 @@ pub(crate) struct Settings {
     /// deflection by the load, is to be exact there.
     #[arg(long, value_name = "REGION", value_parser = region, allow_hyphen_values = true)]
     work: Option<Region>,
-    /// How exact it is to be there, the standard deviation of a coordinate: position_error_mm<VALUE or
-    /// deflection_mm<VALUE [mm]. How many poses does that take?
+    /// How exact it is to be there, the standard deviation of a coordinate (the mean, or with worst-position
+    /// and worst-deflection the greatest): position_error_mm<VALUE or deflection_mm<VALUE [mm]. How many
+    /// poses does that take?
     #[arg(long, value_name = "COLUMN<VALUE", value_parser = arguments::limit, requires = "work")]
     limit: Option<(String, OutputLimit)>,
     #[command(flatten)]
@@ -133,23 +134,28 @@ pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let robot = settings.preference.open_robot(settings.robot.path())?;
     let candidates = settings.candidates.read(&robot)?;
     let measurements = settings.known.measurements(&robot)?;
-    let uncertainties = settings.known.deviations(&robot)?;
+    let mut calibration = settings.known.calibration(&robot, &settings.free.free)?;
     let work = match &settings.work {
         Some(region) => region.grid(&robot)?.poses(),
         None => Vec::new(),
     };
     questions::about_poses(&robot, "--work", &work);
-    let mut calibration = Calibration::new(&robot, &uncertainties)?.with_free(&settings.free.free);
     let load = settings.load.load();
     questions::about_load(&robot, &load);
     questions::about_accuracy(&robot, accuracy);
     let all = candidates.len();
     let (poses, refused) = add(&mut calibration, candidates, &load, &measurements)?;
     let worked = work.iter().filter(|pose| calibration.add_work(pose, &load, of).is_ok()).count();
-    if of_work.is_some() && worked == 0 {
+    if (of_work.is_some() || accuracy.is_some()) && worked == 0 {
         return Err(ProgramError::NoPoseHeld { reasons: "none of --work is held".to_owned() });
     }
-    let found = patiently("choosing poses", || calibration.plan(settings.count, criterion, settings.seed));
+    let (found, needed) = patiently("choosing poses", || {
+        let needed = accuracy.map(|accuracy| {
+            let reaches = |of: &Quality| of.at_work(criterion).is_some_and(|std| std <= accuracy);
+            calibration.needed(settings.count, criterion, reaches)
+        });
+        (calibration.plan(settings.count, criterion, settings.seed), needed)
+    });
     if let Some(out) = &settings.out {
         let lines: Vec<String> = found
             .poses
@@ -159,7 +165,8 @@ pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         settings.overwrite.write(out, format!("{}\n{}\n", poses::COLUMNS.join(","), lines.join("\n")))?;
     }
     let left_out = work.len() - worked;
-    let output = Plan { work_left_out: left_out, ..Plan::new(&poses, refused, found, accuracy) };
+    let is_worst = criterion == Criterion::WorstAtWork;
+    let output = Plan { work_left_out: left_out, needed, is_worst, ..Plan::new(&poses, refused, found) };
     let text = |output: &Plan| print_plan(&robot, output, settings.details.details);
     settings.format.print(&output, text)?;
     Ok(ending(output.candidates, all))
@@ -180,9 +187,12 @@ struct Plan {
     outermost: Left,
     /// With the first 1, 2, 3, ... poses of a set that grows one by one.
     growing: Vec<Left>,
-    /// Poses that reach the accuracy; none where more are needed.
+    /// The least number of poses whose plan reaches the accuracy; none where more are needed.
     #[serde(skip_serializing_if = "Option::is_none")]
     needed: Option<Option<usize>>,
+    /// Whether the greatest standard deviation at work is made small, where it is the mean otherwise.
+    #[serde(skip)]
+    is_worst: bool,
 }
 
 /// What a set of poses leaves.
@@ -202,16 +212,7 @@ impl From<Quality> for Left {
 }
 
 impl Plan {
-    fn new(
-        poses: &[Pose],
-        refused: BTreeMap<&'static str, usize>,
-        found: PosePlan,
-        accuracy: Option<f64>,
-    ) -> Self {
-        let needed = accuracy.map(|accuracy| {
-            let reached = |of: &Quality| of.mean_at_work.is_some_and(|std| std <= accuracy);
-            found.growing.iter().position(reached).map(|k| k + 1)
-        });
+    fn new(poses: &[Pose], refused: BTreeMap<&'static str, usize>, found: PosePlan) -> Self {
         Self {
             candidates: poses.len(),
             refused,
@@ -221,7 +222,8 @@ impl Plan {
             random: found.random.into(),
             outermost: found.corners.into(),
             growing: found.growing.into_iter().map(Left::from).collect(),
-            needed,
+            needed: None,
+            is_worst: false,
         }
     }
 }
@@ -240,11 +242,13 @@ fn reached(robot: &Robot, output: &Plan, needed: Option<usize>) -> String {
 fn answer(robot: &Robot, output: &Plan) -> String {
     let (poses, name) = (counted(output.poses.len(), "pose"), shown(&robot.name));
     let leave = if output.poses.len() == 1 { "leaves" } else { "leave" };
-    let at_work = |of: &Left| of.mean_at_work.map(|std| significant(1e3 * std, 3));
+    let at_work = if output.is_worst { "mm at worst" } else { "mm at work" };
+    let of_work = |of: &Left| if output.is_worst { of.worst_at_work } else { of.mean_at_work };
+    let millimetres = |of: &Left| of_work(of).map(|std| significant(1e3 * std, 3));
     let sets = [&output.plan, &output.random, &output.outermost];
-    match sets.map(at_work) {
+    match sets.map(millimetres) {
         [Some(plan), Some(random), Some(outermost)] => {
-            format!("{poses} of {name} {leave} {plan} mm at work (random {random}, outermost {outermost}).")
+            format!("{poses} of {name} {leave} {plan} {at_work} (random {random}, outermost {outermost}).")
         }
         _ => {
             let [plan, random, outermost] = sets.map(|of| significant(100.0 * of.parameters, 3));

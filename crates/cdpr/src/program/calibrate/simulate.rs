@@ -4,13 +4,14 @@ use crate::program::arguments::endings;
 use crate::program::arguments::{
     self, Format, FreeArguments, LoadArguments, Overwrite, Preference, RobotArgument, UncertaintyArgument,
 };
-use crate::program::calibrate::candidates::Candidates;
+use crate::program::calibrate::candidates::{Candidates, ending};
 use crate::program::calibrate::sensors::{NoiseArgument, SensorArguments};
 use crate::program::error::ProgramError;
 use crate::program::output::Ending;
 use crate::program::questions;
+use crate::program::said;
 use cdpr_calibration::{Noise, SensorError, Simulated, drawn_errors, simulate, write_measurements};
-use cdpr_robot::{CableEnd, counted};
+use cdpr_robot::{CableEnd, counted, listing};
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -65,6 +66,11 @@ pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     }
     questions::about_load(&robot, &settings.load.load());
     let noise = Noise::named(noise)?;
+    if model.has_offsets() {
+        said::note(format_args!(
+            "dt changes nothing: it is of tensions that are set, and winches set lengths here"
+        ));
+    }
     let deviations = cdpr_calibration::drawn(&model, settings.seed);
     let markers = settings.sensors.markers(&robot);
     let errors = settings.sensors.errors()?;
@@ -87,6 +93,11 @@ pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         tension_at: if with.has("winch-cells")? { CableEnd::Exit } else { CableEnd::Anchor },
         seed: settings.seed,
     })?;
+    let left_out: Vec<usize> = (1..=poses.len()).filter(|k| rows.iter().all(|row| row.line != *k)).collect();
+    if rows.is_empty() {
+        let reasons = format!("the robot of the file does not hold any of {}", counted(poses.len(), "pose"));
+        return Err(ProgramError::NoPoseHeld { reasons });
+    }
     let (header, lines) = write_measurements(&rows);
     let mut text = header.join(",") + "\n";
     lines.iter().for_each(|line| text += &(line.join(",") + "\n"));
@@ -96,10 +107,16 @@ pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let files: Vec<_> = truth.chain([(settings.out.as_path(), text.as_str())]).collect();
     settings.overwrite.write_all(&files)?;
     let (held, all) = (rows.len(), poses.len());
-    let written = json!({ "measurements": settings.out.to_string_lossy(), "rows": held, "poses": all });
+    let written = json!({ "measurements": settings.out.to_string_lossy(), "rows": held, "poses": all,
+        "left_out": left_out });
     settings.format.print(&written, |_| {
         let [rows, poses] = [counted(held, "row"), counted(all, "pose")];
-        println!("{}: {rows} at {poses}", settings.out.display());
+        let of = if held < all { format!("{held} of {poses}") } else { poses };
+        println!("{}: {rows} at {of}", settings.out.display());
+        let numbers: Vec<String> = left_out.iter().map(ToString::to_string).collect();
+        if !numbers.is_empty() {
+            println!("{}", listing("left out, not held by the robot of the file: poses ", &numbers, ""));
+        }
     })?;
-    Ok(Ending::Well)
+    Ok(ending(held, all))
 }

@@ -66,6 +66,11 @@ pub(crate) trait Row: Serialize + Send {
     /// Its cells.
     fn cells(&self) -> Vec<String>;
 
+    /// Its cases as a table, names first, where the table of a single pose has a row for each of them.
+    fn cases(&self) -> Option<Vec<Vec<String>>> {
+        None
+    }
+
     /// Its tensions that are out of limits, in one list for each of its equilibria.
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]>;
 
@@ -96,7 +101,7 @@ pub(crate) trait Row: Serialize + Send {
 /// Why there is no answer.
 #[derive(Serialize)]
 pub(crate) struct Failure {
-    kind: &'static str,
+    pub(crate) kind: &'static str,
     pub(crate) message: String,
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     fall: Option<Box<Fall>>,
@@ -189,10 +194,13 @@ impl RobotAtPose {
         text: impl FnOnce(&T),
     ) -> Result<Ending, ProgramError> {
         match self.printing.format() {
-            Format::Csv => {
-                print_names::<T>(robot, &[]);
-                print_row(pose, &[], Ok(answer), 0);
-            }
+            Format::Csv => match answer.cases() {
+                Some(cases) => print_cases(&answer.found_pose().unwrap_or(*pose), cases),
+                None => {
+                    print_names::<T>(robot, &[]);
+                    print_row(pose, &[], Ok(answer), 0);
+                }
+            },
             format => format.print(answer, text)?,
         }
         Ok(answer.ending())
@@ -350,6 +358,13 @@ fn print_row<T: Row>(pose: &Pose, given: &[(&str, &str)], answer: Result<&T, &Fa
     let given = given.iter().map(|(_, text)| (*text).to_owned());
     let row = pose.into_iter().chain(given).chain([status.to_owned()]).chain(found).chain([reason]);
     print_record(&row.collect::<Vec<_>>());
+}
+
+/// Prints the cases of a pose, names first.
+fn print_cases(pose: &Pose, cases: Vec<Vec<String>>) {
+    let names = std::iter::once(COLUMNS.map(str::to_owned).to_vec());
+    let at = names.chain(std::iter::repeat(cells(&pose_numbers(pose))));
+    cases.into_iter().zip(at).for_each(|(case, at)| print_record(&[at, case].concat()));
 }
 
 /// Prints the names of the columns.

@@ -7,7 +7,7 @@ use crate::program::arguments::{self, FigureArgument, UncertaintyArgument, With,
 use crate::program::error::ProgramError;
 use crate::program::output::Ending;
 use crate::program::pose::at_pose::{RobotAtPose, Row, cells, numbered};
-use crate::program::said::note_missing_frequencies;
+use crate::program::said::{missing_frequencies, note};
 use cdpr_assess::{Bands, Path, PathPose};
 use cdpr_report::path_view;
 use cdpr_robot::{Robot, broken, counted, significant};
@@ -69,7 +69,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         at.answer_in_order(&robot, |pose| Ok(Passed::new(&robot, solve(pose)?)))?
     };
     along.tell(load != Load::none());
-    note_missing_frequencies(&robot);
+    missing_frequencies(&robot).iter().for_each(|why| note(format_args!("{why}")));
     if let Some(file) = figure {
         file.write(&at.printing.overwrite, &path_view(&robot, &load, &passed)?)?;
     }

@@ -1,20 +1,27 @@
 //! `cdpr safety`: what becomes of the platform when a cable breaks, and in weather.
 
 mod case;
+mod proof;
+mod row;
 mod weather;
 
-use crate::program::answer::{OutOfLimits, numbers};
+use crate::program::answer::numbers;
 use crate::program::arguments::poses::as_numbers;
-use crate::program::arguments::{FreeArguments, WEATHER, With, any_weather, note_pulleys, number, with};
+use crate::program::arguments::{
+    FACTORS, FreeArguments, WEATHER, With, any_weather, factors, note_pulleys, number, with,
+};
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
-use crate::program::pose::at_pose::{RobotAtPose, Row};
+use crate::program::pose::at_pose::RobotAtPose;
 use crate::program::pose::modes::with_inertia;
-use crate::program::pose::safety::case::{Case, Greatest, Rest, Swinging, factor};
+use crate::program::pose::safety::case::{Case, Greatest, Rest, factor};
+use crate::program::pose::safety::proof::Proof;
 use crate::program::pose::safety::weather::InWeather;
-use cdpr_assess::{AnyWeather, Breaks, Broken, Safety, safety_at};
+use cdpr_assess::{
+    AnyWeather, Breaks, Broken, FactoredCase, PartialFactors, Safety, factored_cases, safety_at, winds,
+};
 use cdpr_robot::{Pose, Robot, significant};
-use cdpr_statics::WantedPose;
+use cdpr_statics::{Load, StaticsError, WantedPose};
 use serde::Serialize;
 use std::borrow::Cow;
 
@@ -27,7 +34,13 @@ pub(crate) struct Settings {
     free: FreeArguments,
     /// pairs: break every pair of cables, too. swing=SECONDS: follow the motion after each break for so long,
     /// without damping. wind=SPEED: wind on the cables, all of them whole, from any horizontal direction; ice= and
-    /// others.
+    /// others. permanent=, variable=, resistance=, accidental=: partial factors of a norm.
+    ///
+    /// permanent multiplies the weight of platform and cables, variable the payload, force, moment and the
+    /// pressure of the wind; resistance divides the breaking forces; accidental multiplies all loads where a
+    /// cable is broken. accidental=1:0.5 has one factor for weights and one for the other loads,
+    /// resistance=1.5:1.2 a second one for broken cables. All four are given together; none has a value of its
+    /// own. With one pose, `--format csv` has a row for each case.
     ///
     /// wind=VX:VY:VZ: wind of one velocity [m/s]. ice=METRES, warmer=KELVIN with cable_expansion=,
     /// frame_expansion=, creep=STRAIN, wind_profile=Z0:ZREF: as those of `deflection`. All cables are whole
@@ -38,8 +51,8 @@ pub(crate) struct Settings {
 
 pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, ProgramError> {
     let with = with.clone().unwrap_or_default();
-    with.check(&[&["pairs", "swing", "wind"], &WEATHER[..]].concat())?;
-    let weather = any_weather(&with)?;
+    with.check(&[&["pairs", "swing", "wind"], &FACTORS[..], &WEATHER].concat())?;
+    let (weather, factors) = (any_weather(&with)?, factors(&with)?);
     let load = at.load.load();
     let breaks = Breaks { pairs: with.has("pairs")?, follow: with.value("swing", None, above_zero)? };
     let solve = |robot: &Robot, pose: &Pose| {
@@ -48,9 +61,8 @@ pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, Prog
             note_pulleys(&robot, speed.is_some() || !weather.wind.is_calm());
         }
         let found = safety_at(&robot, WantedPose::at(pose).free(&free.free), &load, breaks)?;
-        let weather = weather.map(|weather| InWeather::new(&robot, &found, &load, &weather)).transpose()?;
         let found_pose = free.found(&found.pose);
-        Ok(Answer { found_pose, in_weather: weather, ..Answer::new(&robot, found) })
+        Ok(Answer { found_pose, ..Answer::new(&robot, found, &load, weather.as_ref(), factors)? })
     };
     at.answer(solve, Answer::print)
 }
@@ -84,16 +96,35 @@ struct Answer {
     /// The whole robot in the weather, if asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     in_weather: Option<InWeather>,
+    /// Utilizations by partial factors, if these are given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proof: Option<Proof>,
+    /// The cases of the proof, with factors of 1 where none are given.
+    #[serde(skip)]
+    cases: Vec<FactoredCase>,
 }
 
 impl Answer {
-    fn new(robot: &Robot, found: Safety) -> Self {
+    fn new(
+        robot: &Robot,
+        found: Safety,
+        load: &Load,
+        weather: Option<&AnyWeather>,
+        factors: Option<PartialFactors>,
+    ) -> Result<Self, StaticsError> {
+        let blown = weather.map(|weather| {
+            let blown = winds(robot, &found.lengths, load, [&found.pose, &found.pose], weather)?;
+            Ok::<_, StaticsError>((weather, blown))
+        });
+        let blown = blown.transpose()?;
+        let blown = blown.as_ref().map(|(weather, blown)| (*weather, blown));
+        let cases = factored_cases(robot, &found, load, &factors.unwrap_or(PartialFactors::ONE), blown)?;
         let Safety { lengths, tensions, exit_tensions, safety_factor, broken, .. } = found;
         let all = lengths.len();
         let case = |of: Broken| Case { falls: of.cables.len() == all, ..Case::from(of) };
         let ends = tensions.iter().zip(&exit_tensions).map(|(at, exit)| at.max(*exit));
         let greatest = (1..).zip(ends).max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((1, 0.0));
-        Self {
+        Ok(Self {
             lengths,
             tensions,
             exit_tensions,
@@ -103,8 +134,10 @@ impl Answer {
             safety_factor: safety_factor.map(|(factor, _)| factor),
             broken: broken.into_iter().map(case).collect(),
             found_pose: None,
-            in_weather: None,
-        }
+            in_weather: blown.map(|(weather, blown)| InWeather::new(robot, weather, blown)),
+            proof: factors.map(|factors| Proof::new(factors, &cases)),
+            cases,
+        })
     }
 
     /// The case that is greatest by a figure, with the figure.
@@ -197,11 +230,12 @@ impl Answer {
     }
 
     fn print(&self, heading: &str) {
+        let followed = self.broken.iter().any(|case| case.swing.is_some());
+        self.proof.iter().for_each(|proof| proof.print(heading, followed));
         let in_weather = self.in_weather.iter().flat_map(|weather| weather.sentences(heading));
         for sentence in in_weather.chain(self.sentences(heading)) {
             print_sentence(&sentence);
         }
-        let followed = self.broken.iter().any(|case| case.swing.is_some());
         let mut rows = table(match followed {
             true => {
                 &["broken", "moves [m]", "at rest [N]", "swings [m]", "peak [N]", "in cable", "factor", ""]
@@ -231,76 +265,5 @@ impl Answer {
             "These are rests while the winches stand still. On the way there the platform swings and tensions \
              are greater: --with swing=SECONDS follows it."
         });
-    }
-}
-
-impl Row for Answer {
-    fn columns(_: &Robot) -> Vec<String> {
-        [
-            "moved_m",
-            "moved_without",
-            "turned_deg",
-            "turned_without",
-            "greatest_tension_n",
-            "greatest_tension_cable",
-            "greatest_tension_without",
-            "safety_factor",
-            "overloaded_without",
-            "below_ground_without",
-            "no_rest_without",
-            "swing_moved_m",
-            "peak_tension_n",
-            "peak_tension_cable",
-            "peak_tension_without",
-        ]
-        .into_iter()
-        .chain(weather::COLUMNS)
-        .map(str::to_owned)
-        .collect()
-    }
-
-    fn cells(&self) -> Vec<String> {
-        let without = |found: Option<(f64, &Case)>| match found {
-            Some((value, case)) => [format!("{value:?}"), self.names(|one| std::ptr::eq(one, case))],
-            None => [String::new(), String::new()],
-        };
-        let tension = self.greatest(|rest| rest.greatest_tension.tension);
-        let cable = tension.and_then(|(_, case)| Some(case.rest.as_ref()?.greatest_tension.cable));
-        let [value, case] = without(tension);
-        let factor = self.broken.iter().filter_map(Case::safety_factor).min_by(f64::total_cmp);
-        let last = [
-            value,
-            cable.map_or_else(String::new, |cable| cable.to_string()),
-            case,
-            factor.map_or_else(String::new, |factor| format!("{factor:?}")),
-            self.names(Case::is_overloaded),
-            self.names(Case::is_below_ground),
-            self.names(|case| case.rest.is_none()),
-        ];
-        let [moved, turned] = [self.greatest(|rest| rest.moved), self.greatest(|rest| rest.turned_deg)];
-        let swings: Vec<_> = self.broken.iter().filter_map(|case| Some((case.swinging()?, case))).collect();
-        let far = swings.iter().map(|(swing, _)| swing.moved).max_by(f64::total_cmp);
-        let tension = |swing: &Swinging| swing.greatest_tension.tension;
-        let peak = swings.iter().max_by(|a, b| tension(a.0).total_cmp(&tension(b.0)));
-        let [value, case] = without(peak.map(|(swing, case)| (tension(swing), *case)));
-        let far = far.map_or_else(String::new, |far| format!("{far:?}"));
-        let cable = peak.map_or_else(String::new, |(swing, _)| swing.greatest_tension.cable.to_string());
-        let swing = [far, value, cable, case];
-        let weather = self.in_weather.as_ref().map(InWeather::cells).unwrap_or_default();
-        without(moved).into_iter().chain(without(turned)).chain(last).chain(swing).chain(weather).collect()
-    }
-
-    fn found_pose(&self) -> Option<Pose> {
-        self.found_pose
-    }
-
-    fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
-        Vec::new()
-    }
-
-    fn ending(&self) -> Ending {
-        let in_weather = self.in_weather.as_ref().is_some_and(|weather| weather.wrong().is_some());
-        let is_wrong = in_weather || self.broken.iter().any(|case| case.wrong().is_some());
-        if is_wrong { Ending::SomethingWrong } else { Ending::Well }
     }
 }

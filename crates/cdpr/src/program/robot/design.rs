@@ -14,6 +14,7 @@ use cdpr_assess::{
 };
 use cdpr_robot::{Robot, counted, shown, significant};
 use std::path::PathBuf;
+use std::time::Instant;
 
 /// The robot and what may change.
 #[derive(clap::Args)]
@@ -45,12 +46,14 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         let found = patiently("looking for the best robots", || front(&problem))?;
         return answer_front(settings, &robot, &found);
     }
+    let clock = Instant::now();
     let found = patiently("looking for the best robot", || design(&problem))?;
+    let seconds = clock.elapsed().as_secs_f64();
     if let (Some(out), Some(best)) = (&settings.out, &found.best) {
         settings.overwrite.write(out, format!("{}\n", best.robot.to_json()))?;
     }
     settings.format.print(&found, |found| {
-        print(&robot, found);
+        print(&robot, found, seconds);
         if let (Some(out), Some(best)) = (&settings.out, &found.best) {
             println!("{}: {}", out.display(), shown(&best.robot.name));
         }
@@ -184,13 +187,13 @@ fn print_front(robot: &Robot, found: &Front) {
     }
 }
 
-fn print(robot: &Robot, found: &Design) {
+fn print(robot: &Robot, found: &Design, seconds: f64) {
     let Some(best) = &found.best else {
         print_sentence(&none(robot, found));
         return;
     };
     let basis = found.basis.map(str::to_owned);
-    let first = [Some(verdict(robot, found, best)), basis, Some(ends(found, best))];
+    let first = [Some(verdict(robot, found, best)), basis, Some(ends(found, best, seconds))];
     for sentence in first.into_iter().chain([optimum(best), demands(found, best)]).flatten() {
         print_sentence(&sentence);
     }
@@ -278,7 +281,11 @@ fn verdict(robot: &Robot, found: &Design, best: &BestDesign) -> String {
         }
         None => format!("becomes {}", amount(after)),
     };
-    let all = if found.starts == 0 { ", all of them evaluated" } else { "" };
+    let all = match (found.starts, found.left) {
+        (0, 0) => ", all of them evaluated",
+        (0, _) => ", all of them compared",
+        _ => "",
+    };
     format!(
         "{}: the {} {becomes} (best of {}{all}).",
         shown(&robot.name),
@@ -287,12 +294,16 @@ fn verdict(robot: &Robot, found: &Design, best: &BestDesign) -> String {
     )
 }
 
-/// How many starts or configurations lead where, and what the robot as it is lacks.
-fn ends(found: &Design, best: &BestDesign) -> String {
+/// How many starts or configurations lead where, in which time, and what the robot as it is lacks.
+fn ends(found: &Design, best: &BestDesign, seconds: f64) -> String {
     let total = found.configurations * found.starts.max(1);
     let lost = total - found.feasible;
     let searches = if found.starts == 0 {
-        format!("{} of {total} configurations hold {WITHIN}", found.feasible)
+        let left = match found.left {
+            0 => String::new(),
+            left => format!("; {left} were left at a pose where they are worse than the two best ones"),
+        };
+        format!("{} of {total} configurations hold {WITHIN}{left}", found.feasible)
     } else {
         let elsewhere = found.feasible - best.same;
         let what = if found.configurations == 1 { "starts" } else { "searches" };
@@ -311,8 +322,10 @@ fn ends(found: &Design, best: &BestDesign) -> String {
         }
         (None, false) => " The robot as it is does not hold all poses.",
     };
-    let work =
-        if found.starts == 0 { String::new() } else { format!("; {}", evaluations(found.evaluations)) };
+    let work = match found.starts {
+        0 => format!("; all in {} s on this machine", significant(seconds, 2)),
+        _ => format!("; {}", evaluations(found.evaluations)),
+    };
     format!("{searches}{next}{work}.{before}")
 }
 

@@ -1,27 +1,27 @@
 //! `cdpr workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
+mod ranges;
+
 use crate::program::arguments::poses::Angles;
 use crate::program::arguments::{
-    self, FigureArgument, Format, FreeArguments, LoadArguments, NO_DRAG, Overwrite, Preference, Region,
-    RobotArgument, Threads, UncertaintyArgument, WEATHER, With, any_weather, count, figure, note_pulleys,
-    number, region, with, write_figures,
+    self, FACTORS, FigureArgument, Format, FreeArguments, LoadArguments, NO_DRAG, Overwrite, Preference,
+    Region, RobotArgument, Threads, UncertaintyArgument, WEATHER, With, any_weather, count, factors, figure,
+    note_pulleys, number, region, with, write_figures,
 };
 use crate::program::error::ProgramError;
-use crate::program::output::{
-    Details, Ending, drawn, patiently, print_sentence, progress, table, wide_table,
-};
+use crate::program::output::{Details, Ending, drawn, patiently, print_sentence, progress, table};
 use crate::program::questions;
-use crate::program::said::note_missing_frequencies;
+use crate::program::robot::workspace::ranges::{print_details, ranges};
+use crate::program::said::missing_frequencies;
 use crate::program::wrenches::WrenchArguments;
 use cdpr_assess::{
-    AnyWeather, BoundarySummary, DIRECTIONS, Further, HELD, Shaking, TiltDirections, Way, Workspace,
-    WorkspaceSummary, begin_workspace, compute_workspace, workspace_boundary, write_workspace,
+    AnyWeather, BoundarySummary, DIRECTIONS, Further, HELD, PartialFactors, Shaking, TiltDirections, Way,
+    Workspace, WorkspaceSummary, begin_workspace, compute_workspace, workspace_boundary, write_workspace,
 };
 use cdpr_dynamics::Damping;
 use cdpr_report::{MapQuantity, layers, workspace_maps};
-use cdpr_robot::{Axis, Robot, Rotation3, counted, decimal, decimals_of, listing, shown, significant};
+use cdpr_robot::{Axis, Robot, Rotation3, counted, listing, shown, significant};
 use cdpr_study::{Extremes, Grid};
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -50,7 +50,7 @@ pub(crate) struct Settings {
     #[command(flatten)]
     set: WrenchArguments,
     /// Further results, which take longer: capacity, distances, tilt=N, amplitude=HZ:HZ, boundary, layers=N,
-    /// wind=SPEED.
+    /// wind=SPEED, breaks.
     ///
     /// capacity: greatest payload and margins of the tensions, for each --wrench on top of the load.
     /// distances: of the nearest two cables, and of the cable nearest to the platform. tilt: how far the
@@ -61,7 +61,9 @@ pub(crate) struct Settings {
     /// polygons in a plane, a mesh in a box (STL). layers: of a box that are drawn, spread evenly (12); 0
     /// draws nothing. wind=SPEED: how far wind on the cables and load displace the platform, the lengths kept,
     /// and the worst of all horizontal directions; wind=VX:VY:VZ: wind of one velocity; ice, creep and the
-    /// others as those of `deflection`.
+    /// others as those of `deflection`. breaks: the greatest tension over breaking force, with all cables, each
+    /// of them broken alone and in the wind, and how far a break moves the platform; with permanent= and the
+    /// other partial factors of `safety` the utilization.
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
     /// Point of the platform whose amplitude is mapped: x,y,z in its frame [m]; P if left out.
@@ -93,6 +95,8 @@ struct Wanted {
     tilt: Option<usize>,
     shaking: Option<Shaking>,
     weather: Option<AnyWeather>,
+    /// Factors of utilizations after breaks.
+    breaks: Option<PartialFactors>,
     boundary: Option<Way>,
     /// Layers of a box that are drawn.
     layers: usize,
@@ -102,7 +106,13 @@ impl Wanted {
     fn new(with: &With, marker: Option<[f64; 3]>) -> Result<Self, ProgramError> {
         let own =
             ["capacity", "distances", "tilt", "amplitude", "damping", "drag", "boundary", "layers", "wind"];
-        with.check(&[&own[..], &WEATHER].concat())?;
+        with.check(&[&own[..], &["breaks"], &FACTORS, &WEATHER].concat())?;
+        let (breaks, factors) = (with.has("breaks")?, factors(with)?);
+        if factors.is_some() && !breaks {
+            let expected = "--with permanent: expected breaks, too, whose utilization it changes";
+            return Err(ProgramError::Usage(expected.to_owned()));
+        }
+        let breaks = breaks.then(|| factors.unwrap_or(PartialFactors::ONE));
         let band = |text: &str| {
             let (from, to) = text.split_once(':').unwrap_or((text, text));
             let ends = number(from).ok().zip(number(to).ok()).map(<[f64; 2]>::from);
@@ -131,6 +141,7 @@ impl Wanted {
             tilt: with.value("tilt", Some(4), count::<1, 360>)?,
             shaking: band.map(shaking),
             weather: any_weather(with)?,
+            breaks,
             boundary: with.value("boundary", Some(Way::Recomputed), way)?,
             layers: with.value("layers", None, count::<0, 10_000>)?.unwrap_or(12),
         })
@@ -196,6 +207,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
             tilt: wanted.tilt.map(|count| TiltDirections { count, accuracy: TILT_ACCURACY.to_radians() }),
             shaking: wanted.shaking,
             weather: wanted.weather,
+            breaks: wanted.breaks,
         },
     };
     let progress = progress(grid.poses().len(), "poses");
@@ -217,6 +229,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     write_figures(&settings.figure, &maps, &settings.overwrite)?;
     settings.format.print(&summary, |summary| {
         print(summary);
+        missing_frequencies(&robot).iter().for_each(|why| print_sentence(why));
         least_norm(&robot, summary).iter().for_each(|why| print_sentence(why));
         if settings.details.details {
             print_details(summary);
@@ -227,7 +240,6 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         }
         println!("{} in {seconds:.2} s; results in {}", counted(poses.len(), "pose"), out.display());
     })?;
-    note_missing_frequencies(&robot);
     if let Some(AnyWeather { weather, speed }) = &workspace.further.weather {
         note_pulleys(&robot, speed.is_some() || !weather.wind.is_calm());
     }
@@ -288,6 +300,19 @@ fn print(summary: &WorkspaceSummary) {
             weather.speed.map_or_else(String::new, |_| format!(" ({DIRECTIONS} directions and searches)"));
         print_sentence(&format!("In the weather, {}{directions}: {wrong}.", weather.conditions()));
     }
+    if summary.factors.is_some() {
+        let exceeds =
+            summary.rows.iter().filter(|row| row.utilization.is_some_and(|most| most > 1.0)).count();
+        let open = summary.rows.iter().filter(|row| row.utilization.is_none() && row.status == HELD).count();
+        let open = match open {
+            0 => String::new(),
+            count => format!("; at {count} positions held it is not known (break_reason in workspace.csv)"),
+        };
+        print_sentence(&format!(
+            "With all cables and without each of them, the utilization exceeds 1 at {}{open}.",
+            counted(exceeds, "position")
+        ));
+    }
     if let Some(BoundarySummary { measure, error, doubtful, unit, .. }) = &summary.boundary {
         let [measure, smooth, unseen] =
             [(measure, 5), (error, 2), (doubtful, 2)].map(|(x, n)| significant(*x, n));
@@ -312,88 +337,4 @@ fn least_norm(robot: &Robot, summary: &WorkspaceSummary) -> Option<String> {
             counted(below, "position")
         )
     })
-}
-
-/// What ranges over the positions held.
-fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 18] {
-    [
-        ("|dp| [mm]", summary.magnitude_mm),
-        ("least stiffness [N/m]", summary.least_stiffness),
-        ("frequency of the platform [Hz]", summary.platform_frequency_hz),
-        ("lowest natural frequency [Hz]", summary.lowest_frequency_hz),
-        ("greatest tension [N]", summary.greatest_tension),
-        ("least tension [N]", summary.least_tension),
-        ("greatest tension, recomputed [N]", summary.recomputed_greatest_tension),
-        ("greatest payload, recomputed [kg]", summary.payload_recomputed_kg),
-        ("greatest payload, lengths kept [kg]", summary.payload_kept_kg),
-        ("margin, recomputed [N]", summary.margin_recomputed),
-        ("margin, lengths kept [N]", summary.margin_kept),
-        ("distance of the nearest cables [mm]", summary.nearest_cables_mm),
-        ("distance of cables and platform [mm]", summary.nearest_to_platform_mm),
-        ("tilt in the worst direction [deg]", summary.tilt_deg),
-        ("largest amplitude by a force [mm/N]", summary.amplitude_mm_per_n),
-        ("largest amplitude by a winch [mm/mm]", summary.winch_mm_per_mm),
-        ("displacement in the weather [mm]", summary.weather_mm),
-        ("greatest tension in the weather [N]", summary.weather_greatest_tension),
-    ]
-}
-
-fn print_details(summary: &WorkspaceSummary) {
-    println!("\n{}: {} positions, {}", shown(&summary.robot), summary.rows.len(), summary.conditions());
-    let counts = |status: &BTreeMap<&str, usize>| {
-        for (status, count) in status {
-            println!("{count:8} {status}");
-        }
-    };
-    if summary.is_loaded() {
-        println!("with the lengths kept under the load:");
-    }
-    counts(&summary.status);
-    if summary.too_much > 0 {
-        let positions = summary.too_much;
-        println!(
-            "{positions:8} with tensions above tension_limits.max or a breaking force: see workspace.csv"
-        );
-    }
-    if summary.is_loaded() {
-        println!("with the tensions recomputed:");
-    }
-    counts(&summary.recomputed_status);
-    // Without a load these are the counts above, unless they say more.
-    let says_more = summary.left_out.keys().any(|why| !summary.status.contains_key(why.as_str()));
-    if says_more || summary.is_loaded() && !summary.left_out.is_empty() {
-        println!("left out{}:", if summary.is_loaded() { ", with the lengths kept" } else { "" });
-        for (why, count) in &summary.left_out {
-            println!("{count:8} {why}");
-        }
-    }
-    let mut rows = wide_table(&["over the positions held", "least", "at [m]", "greatest", "at [m]"]);
-    let position = |[x, y, z]: [f64; 3]| format!("{x:.3}, {y:.3}, {z:.3}");
-    for (name, extremes) in ranges(summary) {
-        if let Some(Extremes { min, min_at, max, max_at }) = extremes {
-            let shown = |number| decimal(number, decimals_of([min, max], 4));
-            rows.add_row([name.to_owned(), shown(min), position(min_at), shown(max), position(max_at)]);
-        }
-    }
-    if rows.row_count() > 0 {
-        println!("{rows}");
-    }
-    if let Some(BoundarySummary { way, measure, error, doubtful, unit, parts, evaluations }) =
-        &summary.boundary
-    {
-        let (name, parts) = match *unit {
-            "m2" => ("area", format!("{parts} polygons in boundary.csv")),
-            _ => ("volume", format!("{parts} triangles in boundary.stl")),
-        };
-        println!(
-            "{name} of the region held ({way}): {} {unit}, error {error:.1e}, in doubt {doubtful:.1e}; \
-             {parts}; {evaluations} positions asked for",
-            significant(*measure, 5)
-        );
-    }
-    let mut dominant: Vec<_> = summary.dominant.iter().collect();
-    dominant.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
-    for (name, count) in dominant.into_iter().take(5) {
-        println!("{name} dominates the tolerance of |dp| at {count} positions");
-    }
 }

@@ -3,7 +3,7 @@
 use crate::program::arguments::{self, Named, Preference, Printing, Threads};
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, patiently, print_sentence, table};
-use cdpr_assess::{Limit, Limited, Reached, ToleranceBudget, tolerance_budget};
+use cdpr_assess::{Limit, Limited, PricedCalibration, Reached, Tolerance, ToleranceBudget, tolerance_budget};
 use cdpr_robot::{shown, significant};
 use cdpr_study::{Estimate, OutputLimit};
 use std::path::PathBuf;
@@ -25,7 +25,8 @@ pub(crate) struct Settings {
     quantile: f64,
     /// Costs of the tolerances as they are, by entry of the error model: a=2,b=1; 1 if left out.
     ///
-    /// Half the tolerance costs twice as much.
+    /// Half the tolerance costs twice as much. Instead, `prices` of the study may say what tolerances and
+    /// calibrations cost.
     #[arg(long, value_parser = arguments::named)]
     costs: Option<Named>,
     /// Independent robots that the budget is verified with.
@@ -68,17 +69,36 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
 /// The answer, and each tolerance as it is and as it is to be.
 fn print(budget: &ToleranceBudget) {
     budget.sentences().iter().for_each(|sentence| print_sentence(sentence));
-    let mut rows = table(&["tolerance", "std now", "tighten to", "times", "share of variance [%]"]);
+    let mut rows = match budget.priced {
+        false => table(&["tolerance", "std now", "tighten to", "times", "share of variance [%]"]),
+        true => table(&["tolerance", "std now", "std then", "share [%]", "spend", "by"]),
+    };
     for tolerance in &budget.tolerances {
         let kept = tolerance.factor == 1.0;
         let tightened = |text: String| if kept { "-".to_owned() } else { text };
-        rows.add_row([
+        let mut cells = vec![
             tolerance.name.clone(),
             format!("{:.4e}", tolerance.std),
             tightened(format!("{:.4e}", tolerance.std * tolerance.factor)),
-            tightened(format!("{:.3}", tolerance.factor)),
             format!("{:.2}", 100.0 * tolerance.share),
-        ]);
+        ];
+        if budget.priced {
+            cells.push(tightened(significant(tolerance.cost_then - tolerance.cost, 4)));
+            cells.push(tolerance.by.unwrap_or_default().to_owned());
+        } else {
+            cells.insert(3, tightened(format!("{:.3}", tolerance.factor)));
+        }
+        rows.add_row(cells);
+    }
+    println!("{rows}");
+    if budget.calibrations.is_empty() {
+        return;
+    }
+    let mut rows = table(&["calibration", "cost", "do it", "saves"]);
+    for PricedCalibration { name, cost, bought, saves } in &budget.calibrations {
+        let saves = saves.map_or_else(|| "needed".to_owned(), |saves| significant(saves, 4));
+        let bought = if *bought { "yes" } else { "no" };
+        rows.add_row([name.clone(), significant(*cost, 4), bought.to_owned(), saves]);
     }
     println!("{rows}");
 }
@@ -89,7 +109,8 @@ fn print_details(title: &str, budget: &ToleranceBudget) {
     if let Some(share) = budget.explained {
         println!("The linear law explains {} % of the variance.", significant(100.0 * share, 3));
     }
-    let mut rows = table(&["tolerance", "quantile if it alone is halved [mm]", "cost now", "cost then"]);
+    let columns = ["tolerance", "quantile if it alone is halved [mm]", "cost now", "cost then"];
+    let mut rows = table(&columns);
     for tolerance in &budget.tolerances {
         let bought = |digits: usize, number: f64| match tolerance.weather {
             true => "-".to_owned(),
@@ -99,11 +120,16 @@ fn print_details(title: &str, budget: &ToleranceBudget) {
             tolerance.name.clone(),
             bought(4, tolerance.halved_mm),
             bought(3, tolerance.cost),
-            bought(3, tolerance.cost / tolerance.factor),
+            bought(3, tolerance.cost_then),
         ]);
     }
     println!("{rows}");
     println!("cost {:.3} -> {:.3}\n", budget.cost[0], budget.cost[1]);
+    let is_free = |of: &&Tolerance| budget.priced && of.factor < 1.0 && of.by.is_none();
+    if let Some(buys) = budget.tolerances.iter().find(is_free).and_then(|of| of.mm_per_cost) {
+        let buys = significant(buys, 3);
+        println!("At the optimum a further unit of cost lowers the quantile by {buys} mm.\n");
+    }
     let mut rows = table(&["verified", "robots", "failed", "quantile [mm]", "within the limit [%]"]);
     for (name, reached) in [("as it is", &budget.now), ("tightened", &budget.tightened)] {
         let Reached { quantile_mm, within, robots, failed } = reached;

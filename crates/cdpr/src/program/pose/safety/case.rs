@@ -189,6 +189,18 @@ impl Case {
         beyond.or_else(|| below.then(|| "the platform comes below the ground".to_owned()))
     }
 
+    /// How the break ends, in one word: those of `Robot.safety` in Python.
+    pub(super) fn ending(&self) -> String {
+        let word = match &self.error {
+            Some(failure) => failure.kind,
+            None if self.is_overloaded() => "overloaded",
+            None if self.is_below_ground() => "below_ground",
+            None if self.turns_over() => "turned_over",
+            None => "held",
+        };
+        word.to_owned()
+    }
+
     /// Whether another cable is loaded too much, at rest or on the way.
     pub(super) fn is_overloaded(&self) -> bool {
         let at_rest = self.rest.iter().flat_map(|rest| &rest.out_of_limits);

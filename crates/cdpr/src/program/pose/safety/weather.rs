@@ -3,10 +3,9 @@
 use crate::program::answer::{OutOfLimits, Residual};
 use crate::program::arguments::towards;
 use crate::program::pose::safety::case::Greatest;
-use cdpr_assess::{AnyWeather, DIRECTIONS, InWind, Safety, winds};
+use cdpr_assess::{AnyWeather, DIRECTIONS, InWind, Winds};
 use cdpr_robot::{Robot, significant};
 use cdpr_statics::limits::Limit;
-use cdpr_statics::{Load, StaticsError};
 use serde::Serialize;
 
 /// Its columns in a table.
@@ -39,6 +38,9 @@ pub(super) struct InWeather {
     /// The least safety factor in any wind; absent where no breaking force is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     least_safe: Option<LeastSafe>,
+    /// Whether what is wrong is a tension.
+    #[serde(skip)]
+    is_overloaded: bool,
     /// A wind in which something is wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
     wrong: Option<String>,
@@ -124,13 +126,7 @@ fn wrong(found: &InWind) -> Option<(Option<Limit>, f64, String)> {
 }
 
 impl InWeather {
-    pub(super) fn new(
-        robot: &Robot,
-        held: &Safety,
-        load: &Load,
-        weather: &AnyWeather,
-    ) -> Result<Self, StaticsError> {
-        let found = winds(robot, &held.lengths, load, [&held.pose, &held.pose], weather)?;
+    pub(super) fn new(robot: &Robot, weather: &AnyWeather, found: &Winds) -> Self {
         let mut failed = found.failures.iter();
         let not_found = failed
             .next()
@@ -145,17 +141,34 @@ impl InWeather {
             passed.map(move |passed| (passed, one.azimuth))
         });
         let below = below.max_by(|(a, _), (b, _)| a.excess().total_cmp(&b.excess()));
-        Ok(Self {
+        Self {
             speed: weather.speed,
             tilted: robot.gravity.level().is_some(),
             directions: found.rests.len() + found.failures.len(),
             farthest: found.farthest().map(OneWind::new),
             tightest: found.tightest().map(OneWind::new),
             least_safe: found.least_safe().map(LeastSafe::new),
+            is_overloaded: gravest.as_ref().is_some_and(|(limit, _, _)| limit.is_some()),
             wrong: gravest.map(|(_, _, what)| what),
             not_found,
             below_least: below.map(|(least, azimuth)| format!("{least}, in wind{}", towards(azimuth))),
-        })
+        }
+    }
+
+    /// How the robot bears the weather, in one word.
+    pub(super) fn ending(&self) -> String {
+        let word = match (&self.wrong, &self.not_found) {
+            (Some(_), _) if self.is_overloaded => "overloaded",
+            (Some(_), _) => "below_ground",
+            (None, Some(_)) => "no_rest",
+            (None, None) => "held",
+        };
+        word.to_owned()
+    }
+
+    /// The least safety factor in any wind.
+    pub(super) fn least_factor(&self) -> Option<f64> {
+        self.least_safe.as_ref().map(|of| of.factor)
     }
 
     /// What is wrong, or not known.
@@ -235,7 +248,7 @@ impl InWeather {
             number(tight.map(|one| one.greatest_tension.tension)),
             tight.map_or_else(String::new, |one| one.greatest_tension.cable.to_string()),
             number(tight.and_then(|one| one.azimuth_deg)),
-            number(self.least_safe.as_ref().map(|of| of.factor)),
+            number(self.least_factor()),
             self.wrong().unwrap_or_default().to_owned(),
         ]
     }

@@ -1,0 +1,90 @@
+//! The solution of the equations of motion by the method that serves.
+
+use super::midpoint::{Midpoint, Spent};
+use super::radau::{Radau, Stalled, WEIGHTS, Work};
+use super::system::{Snapshot, System};
+use std::borrow::Cow;
+
+/// First step after a change [s].
+const FIRST_STEP: f64 = 1e-5;
+
+/// A solution in progress.
+pub(super) enum Solver<'a> {
+    /// For smooth motions.
+    Implicit(Box<Radau<System<'a>>>),
+    /// For slack cables.
+    Midpoint(Box<Midpoint>),
+}
+
+impl<'a> Solver<'a> {
+    /// The solution from a state on; `is_slack` says whether a cable is or was slack.
+    pub(super) fn new(system: &System<'a>, time: f64, state: Vec<f64>, is_slack: bool) -> Self {
+        let midpoint = if is_slack { Midpoint::new(system, time, &state) } else { None };
+        midpoint.map_or_else(
+            || Self::Implicit(Box::new(Radau::new(system, time, state, FIRST_STEP))),
+            |midpoint| Self::Midpoint(Box::new(midpoint)),
+        )
+    }
+
+    pub(super) fn state(&self) -> &[f64] {
+        match self {
+            Self::Implicit(radau) => &radau.state,
+            Self::Midpoint(midpoint) => &midpoint.state,
+        }
+    }
+
+    pub(super) fn time(&self) -> f64 {
+        match self {
+            Self::Implicit(radau) => radau.time,
+            Self::Midpoint(midpoint) => midpoint.time,
+        }
+    }
+
+    /// The time without the rounding of steps.
+    pub(super) fn set_time(&mut self, time: f64) {
+        match self {
+            Self::Implicit(radau) => radau.time = time,
+            Self::Midpoint(midpoint) => midpoint.time = time,
+        }
+    }
+
+    pub(super) fn work(&self) -> Work {
+        match self {
+            Self::Implicit(radau) => radau.work,
+            Self::Midpoint(midpoint) => midpoint.work,
+        }
+    }
+
+    /// The system now.
+    pub(super) fn snapshot(&self, system: &System) -> Snapshot {
+        system.snapshot(self.time(), self.state())
+    }
+
+    /// The system now, or within the last step.
+    pub(super) fn last_snapshot(&self, system: &System) -> Cow<'_, Snapshot> {
+        match self {
+            Self::Implicit(_) => Cow::Owned(self.snapshot(system)),
+            Self::Midpoint(midpoint) => Cow::Borrowed(&midpoint.at),
+        }
+    }
+
+    /// One step, not beyond `until` [s].
+    pub(super) fn advance(&mut self, system: &mut System<'a>, until: f64) -> Result<Spent, Stalled> {
+        let radau = match self {
+            Self::Implicit(radau) => radau,
+            Self::Midpoint(midpoint) => return midpoint.advance(system, until),
+        };
+        let step = radau.advance(system, until)?;
+        let mut spent = Spent::default();
+        let mut at = Snapshot::default();
+        for (weight, (time, state)) in WEIGHTS.iter().zip(&step.stages) {
+            system.look(*time, state, &mut at);
+            let [given, lost] = system.powers(&at, state);
+            spent.given += weight * step.length * given;
+            spent.lost += weight * step.length * lost;
+            spent.kinetic = spent.kinetic.max(system.energies(&at, state)[0]);
+        }
+        system.turn(&mut radau.state);
+        Ok(spent)
+    }
+}
