@@ -98,7 +98,7 @@ fn utilization_grows_with_each_factor_as_it_must() {
     near(of([1.0, 1.0, 2.5], [1.0; 3])[0], whole * 2.5);
     near(of([1.0; 3], [1.2, 1.2, 1.0])[1], alone * 1.2);
     near(of([1.0; 3], [1.0, 1.0, 1.7])[1], alone * 1.7);
-    // The factors of one situation are none of the other.
+    // The factors of one situation do not act in the other.
     assert_eq!(of([1.3, 1.6, 2.5], [1.0; 3])[1], alone);
     assert_eq!(of([1.0; 3], [1.3, 1.6, 2.5])[0], whole);
 }

@@ -239,7 +239,7 @@ pub struct Fit {
     pub deviations: Vec<f64>,
     /// Covariance of the unknowns, with the prior.
     pub covariance: DMatrix<f64>,
-    /// Roots of the covariance, in scales, whatever is told.
+    /// Roots of the covariance, in scales, also of combinations that the data do not determine.
     pub(crate) roots: Roots,
     /// Combinations that the data do not tell.
     pub unidentifiable: Vec<UnidentifiableCombination>,

@@ -153,7 +153,7 @@ impl Calibration {
     ///
     /// # Errors
     /// [`CalibrationError::Study`] for a model of another robot; [`CalibrationError::Invalid`] for a standard
-    /// deviation that is none.
+    /// deviation that is negative or not finite.
     pub fn of_model(robot: &Robot, model: &ErrorModel) -> Result<Self, CalibrationError> {
         let causes = Causes::of_model(robot, model)?;
         let work = DMatrix::zeros(0, causes.count());

@@ -99,7 +99,7 @@ impl Model<'_> {
         decided: &[Option<bool>],
     ) -> Result<Option<Purchase>, AssessError> {
         market.offers.cheapest(aim, decided).map_err(|bounds| {
-            let expected = "fewer grades and calibrations: the cheapest of so many was not proven";
+            let expected = "fewer grades and calibrations, of which the cheapest choice can be proven";
             StudyError::setting("prices", format!("open after {bounds} bounds"), expected).into()
         })
     }

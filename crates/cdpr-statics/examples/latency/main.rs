@@ -74,7 +74,7 @@ fn slack(robot: &Robot, lengths: &[f64], tracker: &Tracker<&Robot>) -> usize {
     (0..lengths.len()).filter(|&i| forces[i].norm() < weight(i)).count()
 }
 
-/// The equilibria of steps that do not converge, by the step; `None` where there is none.
+/// The equilibria of steps that do not converge, by the step; `None` where the search finds no equilibrium.
 type Rests = HashMap<usize, Option<Equilibrium>>;
 
 /// Follows a course. Where a step does not converge, the tracker goes on from the new equilibrium, searched

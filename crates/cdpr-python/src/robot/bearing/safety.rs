@@ -98,7 +98,7 @@ fn partial_factors(given: &BTreeMap<String, Factor>) -> Answer<PartialFactors> {
     })
 }
 
-/// Refuses a time that is none, and a motion without the inertia that it needs.
+/// Refuses a time that is not above zero, and a motion without the inertia that it needs.
 fn check_swing(robot: &Model, swing: Option<f64>) -> Answer<()> {
     if swing.is_some_and(|time| time.is_nan() || time <= 0.0) {
         let given = swing.unwrap_or_default();

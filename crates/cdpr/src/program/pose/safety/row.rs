@@ -36,7 +36,7 @@ const CASES: [&str; 22] = [
     "reason",
 ];
 
-/// A number to the last bit, empty where there is none.
+/// All digits of a number; an unknown number is an empty cell.
 fn number(value: Option<f64>) -> String {
     value.map_or_else(String::new, |value| format!("{value:?}"))
 }
