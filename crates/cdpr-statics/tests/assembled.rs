@@ -82,14 +82,17 @@ proptest! {
 
     #[test]
     fn eliminating_the_cables_is_newtons_step_of_the_assembled_equations(
-        (robot, lengths, load, pose) in any_state(),
+        (robot, lengths, load, pose) in any_state(), misfit in prop_oneof![Just(1.0), 0.8..1.25f64],
     ) {
         let problem = DirectProblem::new(&robot, &lengths, &load).unwrap();
-        let state = spanning(&robot, &lengths, &pose);
+        let mut state = spanning(&robot, &lengths, &pose);
+        state.cable_forces.iter_mut().for_each(|force| *force *= misfit);
         let right = -problem.equations(&state).unwrap();
         let assembled = problem.jacobian(&state).unwrap().lu().solve(&right).unwrap();
         let expected = assembled.fixed_rows::<6>(0);
         let reduced = problem.newton_step(&state).unwrap();
-        prop_assert!((reduced - expected).norm() < 1e-6 * expected.norm(), "{reduced} {expected}");
+        // The plane of a cable turns by the distance that it has, not by that of its two points.
+        let close = if misfit == 1.0 { 1e-6 } else { 0.05 };
+        prop_assert!((reduced - expected).norm() < close * expected.norm(), "{reduced} {expected}");
     }
 }

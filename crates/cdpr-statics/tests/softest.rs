@@ -84,7 +84,8 @@ fn check(case: &Case) -> (usize, f64) {
     let length = found.deflection.loaded.stability.characteristic_length();
     let alone = case.softest(length, 0, 0.0);
     let (mut compared, mut worst) = (0, 0.0_f64);
-    assert!((value - alone).abs() <= 1e-12 * value.abs(), "{name}: {value} {alone}");
+    // Eigenvalues are known to the rounding of the greatest stiffness.
+    assert!((value - alone).abs() <= 1e-10 * value.abs(), "{name}: {value} {alone}");
     assert_eq!(slopes.len(), found.inputs.count());
     let parameters = &found.inputs.parameters;
     for (column, exact) in slopes.iter().copied().enumerate() {
@@ -95,7 +96,6 @@ fn check(case: &Case) -> (usize, f64) {
         }
         let h = case.step(column);
         let (difference, open) = difference(case, length, column, h);
-        // Eigenvalues are known to the rounding of the greatest stiffness.
         let rounding = 1e-10 * value.abs() / h;
         let input = parameters.get(column).map_or_else(|| format!("{column}"), ToString::to_string);
         let error = (difference - exact).abs();

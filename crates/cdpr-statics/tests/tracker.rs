@@ -1,8 +1,9 @@
 //! One solve after the other: the answers of the direct model, without allocation.
 
 use crate::common::{caroca, ring, suspended};
-use cdpr_robot::{Pose, Robot, Rotation3, Vector3, Wrench};
-use cdpr_statics::{DirectStart, Load, StaticsError, Tracker, direct, inverse};
+use cdpr_robot::{Coordinate, Pose, Robot, Rotation3, Vector3, Wrench};
+use cdpr_statics::{DirectStart, Load, StaticsError, Tracker, WantedPose, direct, inverse};
+use std::f64::consts::PI;
 use std::hint::black_box;
 use std::sync::Arc;
 
@@ -246,6 +247,43 @@ fn guided_and_few_cables_are_stepped_without_allocation() {
             assert!(motion.norm() < 1e-10, "{name}: {motion}");
         }
     }
+}
+
+#[test]
+fn stiff_cables_without_weight_are_stepped_slack_ones_too() {
+    // A step of the lengths is one of hundreds of newtons until the platform follows it.
+    let robot = Robot::from_library("grab").unwrap();
+    assert!(robot.cables.iter().all(|cable| cable.properties.linear_density == 0.0));
+    let held = |x: f64, y: f64| {
+        let free = &[Coordinate::Roll, Coordinate::Pitch, Coordinate::Yaw][..2];
+        inverse(&robot, WantedPose { free, ..Pose::at(x, y, 0.0).into() }, &Load::none()).unwrap()
+    };
+    let (from, to) = (held(1.29, -0.11), held(1.24, -0.05));
+    let mut tracker = Tracker::new(&robot, &from.lengths, &Load::none(), &from.equilibrium).unwrap();
+    let (mut searched, mut slack) = (0, 0);
+    for k in 1..=1000 {
+        let s = f64::from(k) / 1000.0;
+        let mut lengths: Vec<f64> =
+            from.lengths.iter().zip(&to.lengths).map(|(a, b)| a + s * (b - a)).collect();
+        // Paid out and taken in again.
+        lengths[3] += 0.3 * (PI * s).sin().powi(2);
+        let step = tracker.step(&lengths, &Load::none()).unwrap();
+        if step.converged {
+            assert!(step.iterations <= 6, "{k}: {step:?}");
+        } else {
+            searched += 1;
+            tracker.update(&lengths, &Load::none()).unwrap();
+        }
+        let residual = tracker.residual();
+        assert!(residual.closure < 1e-12 && residual.force < 1e-8, "{k}: {residual:?}");
+        slack += usize::from(tracker.equilibrium().cable_forces[3].norm() == 0.0);
+        let longer =
+            direct(&robot, &lengths, &Load::none(), DirectStart::Near(tracker.equilibrium())).unwrap();
+        let motion = tracker.equilibrium().pose.motion_to(&longer.equilibrium.pose);
+        assert!(motion.norm() < 1e-9, "{k}: {motion}");
+    }
+    // When the cable becomes slack, and when it is taut again.
+    assert!(searched <= 4 && slack > 500, "{searched} searches, {slack} steps with a slack cable");
 }
 
 #[test]

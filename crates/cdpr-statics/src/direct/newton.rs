@@ -3,9 +3,9 @@
 //! Linearized at forces f_i that need not yet fit the pose, cable i gives `df_i = K_i (c_i + d(h_i, z_i))`,
 //! (S2) of `equations/cable.rs`.
 //!
-//! Put into the balance of the platform this leaves six equations for (dp, dφ), whose matrix is the stiffness
-//! (S5) of the platform with every f_i replaced by its prediction `f_i + K_i c_i`. An iteration evaluates
-//! each catenary once and solves one 6 x 6 system.
+//! Put into the balance of the platform with the predicted forces `f_i + K_i c_i` this leaves six equations for
+//! (dp, dφ), whose matrix is the stiffness (S5) with the forces f_i as they are. An iteration evaluates each
+//! catenary once and solves one 6 x 6 system.
 //!
 //! Fewer cables than free motions may leave motions that nothing resists, and constrained motions have no
 //! equation. Such a robot takes steps by the singular values of the matrix: motions without resistance and
@@ -63,7 +63,8 @@ impl<'a> Linearized<'a> {
             if let Some(linearized) = &linearized {
                 unbalanced -= Vector6::from(cable.wrench());
                 let stiffness = linearized.stiffness().into();
-                balance.add_cable(&cable.anchor_arm, &linearized.predicted(), &stiffness);
+                let forces = [&cable.force_on_platform(), &linearized.predicted()];
+                balance.add_predicted(&cable.anchor_arm, forces, &stiffness);
             }
             cables.push((cable.anchor_arm, linearized));
         }

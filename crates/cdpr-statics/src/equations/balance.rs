@@ -28,7 +28,7 @@ pub(crate) struct Balance {
     pub(crate) gradient: Vector6<f64>,
     /// Upper triangle of the symmetric part of H, by rows.
     upper: [[f64; 6]; 6],
-    /// Moment of the load, which does not turn with the platform [N m].
+    /// Moment of cables and weight [N m]: of the forces that turn with the platform's points.
     moment: Vector3<f64>,
 }
 
@@ -43,7 +43,7 @@ impl Balance {
         let total = problem.load.total(problem.robot, pose);
         let weight = problem.robot.weight(pose, problem.load.payload).force;
         let center = pose.rotation * problem.robot.platform.center_of_mass;
-        let moment = problem.load.wrench.moment;
+        let moment = center.cross(&weight);
         let mut balance = Self { gradient: -total.to_vector(), moment, ..Self::nothing() };
         add_stiffness(&mut balance.upper, &center.into(), &(-weight).into(), &[[0.0; 3]; 3]);
         balance
@@ -52,8 +52,20 @@ impl Balance {
     /// Adds a cable with the force F [N] on the platform and the stiffness K3 [N/m] at the arm s [m] from P.
     #[inline(always)]
     pub(crate) fn add_cable(&mut self, s: &[f64; 3], force: &[f64; 3], stiffness: &[[f64; 3]; 3]) {
+        self.add_predicted(s, [force, force], stiffness);
+    }
+
+    /// Adds a cable whose force is predicted to become another one, by both.
+    #[inline(always)]
+    pub(crate) fn add_predicted(
+        &mut self,
+        s: &[f64; 3],
+        [force, predicted]: [&[f64; 3]; 2],
+        stiffness: &[[f64; 3]; 3],
+    ) {
         // Eq. (3) with the opposite sign: -w_i t_i.
-        self.gradient -= Vector6::from(wrench(s, force));
+        self.gradient -= Vector6::from(wrench(s, predicted));
+        self.moment += Vector3::from(cross(s, force));
         add_stiffness(&mut self.upper, s, &force.map(|component| -component), stiffness);
     }
 
@@ -61,9 +73,8 @@ impl Balance {
     /// external moment.
     pub(crate) fn hessian(&self, freedoms: Freedoms) -> Matrix6<f64> {
         let mut hessian = self.symmetric_hessian(freedoms);
-        let moment = -(self.gradient.fixed_rows::<3>(3) + self.moment);
         let mut rotations = hessian.fixed_view_mut::<3, 3>(3, 3);
-        rotations += 0.5 * moment.cross_matrix();
+        rotations += 0.5 * self.moment.cross_matrix();
         if freedoms.are_all() { hessian } else { freedoms.of_matrix(&hessian) }
     }
 

@@ -44,6 +44,8 @@ struct Tracked {
     residual: Residual,
     /// Whether lanes have the robot, and something resists every motion of its platform at the start.
     in_lanes: bool,
+    /// The same where the last search ended: a slack cable without weight resists nothing.
+    resisted: bool,
 }
 
 /// What [`Tracker::step`] has done.
@@ -111,7 +113,8 @@ impl<R: Borrow<Robot>> Tracker<R> {
     /// equilibrium and in at most 12 iterations: the time of a step is bounded.
     ///
     /// Where the iterations do not converge, or not certainly to the equilibrium that the last one becomes,
-    /// the tracker keeps the last equilibrium with its lengths and its load. Nothing is allocated (up to 16
+    /// the tracker keeps the last equilibrium with its lengths and its load; so it does where a cable without
+    /// weight becomes slack or taut, which [`Tracker::update`] follows. Nothing is allocated (up to 16
     /// cables, or 4 on x86-64 without AVX2). Where it converges, the digits are those of [`Tracker::update`].
     ///
     /// # Errors
@@ -132,13 +135,15 @@ impl Tracked {
         robot.validate()?;
         let solution = direct(robot, lengths, load, DirectStart::Near(start))?;
         let (equilibrium, residual) = (solution.equilibrium, solution.report.residual);
-        let in_lanes = fits_lanes(robot) && solution.stability.neutral().is_empty();
-        Ok(Self { lengths: lengths.to_vec(), load: *load, equilibrium, residual, in_lanes })
+        let resisted = solution.stability.neutral().is_empty();
+        let in_lanes = fits_lanes(robot) && resisted;
+        Ok(Self { lengths: lengths.to_vec(), load: *load, equilibrium, residual, in_lanes, resisted })
     }
 
     fn update(&mut self, robot: &Robot, lengths: &[f64], load: &Load) -> Result<(), StaticsError> {
         if !self.newton(robot, lengths, load)?.converged {
             let solution = self.followed(robot, lengths, load)?;
+            self.resisted = solution.stability.neutral().is_empty();
             self.residual = solution.report.residual;
             self.equilibrium = solution.equilibrium;
             self.lengths.copy_from_slice(lengths);
@@ -150,7 +155,7 @@ impl Tracked {
     /// A step of a robot for the lanes; others do not converge.
     fn newton(&mut self, robot: &Robot, lengths: &[f64], load: &Load) -> Result<TrackerStep, StaticsError> {
         let problem = &DirectProblem::new(robot, lengths, load)?;
-        if !self.in_lanes {
+        if !(self.in_lanes && self.resisted) {
             return Ok(TrackerStep { iterations: 0, converged: false });
         }
         let before = &DirectProblem { lengths: &self.lengths, load: self.load, ..*problem };
@@ -191,7 +196,7 @@ impl WithSimd for Update<'_> {
         let Self { problem, before, equilibrium } = self;
         let (iterations, found) = follow(simd, problem, before, equilibrium);
         let residual = found.map(|(robots, residual)| {
-            problem.take(&robots, equilibrium);
+            problem.take(&robots, problem.pose(&robots), equilibrium);
             residual
         });
         (iterations, residual)
@@ -209,11 +214,14 @@ fn follow<'a, S: Simd>(
 ) -> (usize, Option<(Robots<'a, S>, Residual)>) {
     let zero = Lanes::splat(simd, 0.0);
     let everywhere = zero.less_or_equal(zero);
+    if problem.pulled(now).is_empty() {
+        return (0, None);
+    }
     let (mut robots, mut platform, load) = problem.linearized(simd, now);
     let scale = problem.scale(now);
     let (found, left) = solve(&mut robots, &load, &mut platform, &scale, everywhere);
     let iterations = platform.steps.count;
-    if !found.any() {
+    if !found.any() || problem.strains_slack(&problem.pose(&robots), now) {
         return (iterations, None);
     }
     if !platform.steps.end_near_prediction(&scale).any() {

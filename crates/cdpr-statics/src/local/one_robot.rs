@@ -1,6 +1,9 @@
 //! One robot whose cables fill the lanes: Newton's method for one direct problem.
+//!
+//! Slack cables without weight have no shape and resist nothing. They are left out of the lanes, and the
+//! equilibrium is refused where one of them would be strained.
 
-use crate::equations::guided_place;
+use crate::equations::{end, guided_place};
 use crate::local::cable::{LaneCable, law};
 use crate::local::guided::Guided;
 use crate::local::load::PlatformLoad;
@@ -8,9 +11,10 @@ use crate::local::newton;
 use crate::local::platform::{Layout, LinearizedPlatform, Robots, Scale};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual, rounding_of_closure};
+use cdpr_cable::Catenary;
 use cdpr_cable::kernel::{GuideTerms, SwivelAxis};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
-use cdpr_robot::{Matrix3, Robot, Vector3, Vector6, Wrench, orthonormalized};
+use cdpr_robot::{Matrix3, Pose, Robot, Vector2, Vector3, Vector6, Wrench, orthonormalized};
 use nalgebra::Matrix6;
 use smallvec::SmallVec;
 
@@ -23,6 +27,9 @@ pub(crate) struct Solved {
     /// Symmetric part of the stiffness, (S5); zero for constrained motions.
     pub(crate) stiffness: Matrix6<f64>,
 }
+
+/// Indices of cables, without allocation for 16 of them.
+pub(crate) type Pulled = SmallVec<[usize; 16]>;
 
 /// Whether the lanes have the mechanics of this robot: cables of the same material, and a level base under a
 /// planar robot.
@@ -38,7 +45,8 @@ pub(crate) fn fits_lanes(robot: &Robot) -> bool {
 /// where fewer cables than free motions may leave motions that nothing resists.
 pub(crate) fn solve(problem: &DirectProblem, state: &mut Equilibrium) -> Option<Solved> {
     let robot = problem.robot;
-    if robot.is_fully_actuated() && fits_lanes(robot) { dispatch(Solve { problem, state }) } else { None }
+    let resisted = problem.pulled(state).len() >= robot.freedoms().count();
+    if resisted && fits_lanes(robot) { dispatch(Solve { problem, state }) } else { None }
 }
 
 struct Solve<'a, 'b> {
@@ -60,7 +68,11 @@ impl WithSimd for Solve<'_, '_> {
         if !found.any() {
             return None;
         }
-        problem.take(&robots, state);
+        let pose = problem.pose(&robots);
+        if problem.strains_slack(&pose, state) {
+            return None;
+        }
+        problem.take(&robots, pose, state);
         let upper = robots.stiffness(&load, &mut platform);
         let first = &platform.steps.first;
         let mut first_step = Vector6::from_fn(|k, _| first[k].first());
@@ -111,10 +123,32 @@ impl<'a> DirectProblem<'a> {
         Scale { size, characteristic_length: self.characteristic_length(), rounding }
     }
 
+    /// A cable that is slack at an equilibrium and has no weight.
+    #[inline(always)]
+    fn slack(&self, i: usize, at: &Equilibrium) -> Option<Catenary<'a>> {
+        let force = at.cable_forces[i];
+        let carries_nothing = force == Vector2::zeros();
+        carries_nothing.then(|| self.catenary(i, force)).filter(Catenary::is_slack_and_weightless)
+    }
+
+    /// The cables that fill the lanes.
+    #[inline(always)]
+    pub(crate) fn pulled(&self, at: &Equilibrium) -> Pulled {
+        (0..self.cables()).filter(|&i| self.slack(i, at).is_none()).collect()
+    }
+
+    /// Whether a cable that the lanes do not have would be strained at another pose.
+    pub(crate) fn strains_slack(&self, pose: &Pose, at: &Equilibrium) -> bool {
+        (0..self.cables()).filter_map(|i| Some((i, self.slack(i, at)?))).any(|(i, slack)| {
+            slack.length_at_rest() < slack.cable.straight_length_in_space(end(self.robot, pose, i))
+        })
+    }
+
     #[inline(always)]
     fn in_lanes<S: Simd>(&self, simd: S, at: &Equilibrium) -> Robots<'a, S> {
         let (robot, Equilibrium { pose, cable_forces }) = (self.robot, at);
-        let (n, count, zero) = (self.cables(), Lanes::<S>::COUNT, Lanes::splat(simd, 0.0));
+        let pulled = &self.pulled(at);
+        let (n, count, zero) = (pulled.len(), Lanes::<S>::COUNT, Lanes::splat(simd, 0.0));
         let in_last = n - (n - 1) / count * count;
         let last = Lanes::from_fn(simd, |lane| lane as f64).less_or_equal(zero.all(in_last as f64 - 0.5));
         let mut robots = Robots {
@@ -135,7 +169,7 @@ impl<'a> DirectProblem<'a> {
             let mut values = [[0.0; MAX_LANES]; 11];
             for lane in 0..count {
                 // Lanes beyond the last cable repeat it and do not count.
-                let i = (first + lane).min(n - 1);
+                let i = pulled[(first + lane).min(n - 1)];
                 let (properties, force) = (&robot.cables[i].properties, cable_forces[i]);
                 let exit = self.in_level_frame(robot.cables[i].exit_point);
                 let arm = self.in_level_frame(robot.anchor_arm(pose, i));
@@ -168,22 +202,22 @@ impl<'a> DirectProblem<'a> {
                 guided: None,
             };
             if is_guided {
-                self.lead(simd, &mut cable, first, at);
+                self.lead(simd, &mut cable, &pulled[first..], at);
             }
             robots.cables.push(cable);
         }
         robots
     }
 
-    /// Gives the cables from number `first` on their guides.
+    /// Gives the first of these cables their guides.
     #[cold]
     #[inline(never)]
-    fn lead<S: Simd>(&self, simd: S, cable: &mut LaneCable<'_, S>, first: usize, at: &Equilibrium) {
-        let (n, count, zero) = (self.cables(), Lanes::<S>::COUNT, cable.length.all(0.0));
+    fn lead<S: Simd>(&self, simd: S, cable: &mut LaneCable<'_, S>, cables: &[usize], at: &Equilibrium) {
+        let (count, zero) = (Lanes::<S>::COUNT, cable.length.all(0.0));
         let mut values = [[0.0; MAX_LANES]; 9];
-        let tilted = (0..n).any(|i| self.robot.cable(i).leaves_its_plane());
+        let tilted = (0..self.cables()).any(|i| self.robot.cable(i).leaves_its_plane());
         for lane in 0..count {
-            let i = (first + lane).min(n - 1);
+            let i = cables[lane.min(cables.len() - 1)];
             let catenary = self.catenary(i, at.cable_forces[i]);
             let ([c, s], free) = guided_place(self.robot, &at.pose, i, catenary);
             let (lead, radius, [x, y, z]) = match catenary.cable.guide {
@@ -215,26 +249,31 @@ impl<'a> DirectProblem<'a> {
         PlatformLoad::new(robots.weight + self.load.payload * self.robot.gravity.magnitude(), &wrench)
     }
 
-    /// Assigns pose and forces in the lanes to an equilibrium.
+    /// The pose in the lanes.
     #[inline(always)]
-    pub(crate) fn take<S: Simd>(&self, robots: &Robots<'_, S>, equilibrium: &mut Equilibrium) {
+    pub(crate) fn pose<S: Simd>(&self, robots: &Robots<'_, S>) -> Pose {
         let level = self.robot.gravity.level();
         let to_base = |v: Vector3<f64>| level.map_or(v, |level| level.tr_mul(&v));
-        let pose = &mut equilibrium.pose;
-        pose.position = to_base(back(&robots.position));
         let columns = [
             to_base(back(&robots.frame[0])),
             to_base(back(&robots.frame[1])),
             to_base(back(&robots.frame[2])),
         ];
-        pose.rotation = orthonormalized(&Matrix3::from_columns(&columns));
-        let forces = equilibrium.cable_forces.chunks_mut(Lanes::<S>::COUNT);
-        for (forces, cable) in forces.zip(&robots.cables) {
+        let rotation = orthonormalized(&Matrix3::from_columns(&columns));
+        Pose { position: to_base(back(&robots.position)), rotation }
+    }
+
+    /// Assigns a pose and the forces in the lanes to the equilibrium that these began with.
+    #[inline(always)]
+    pub(crate) fn take<S: Simd>(&self, robots: &Robots<'_, S>, pose: Pose, equilibrium: &mut Equilibrium) {
+        let pulled = self.pulled(equilibrium);
+        for (indices, cable) in pulled.chunks(Lanes::<S>::COUNT).zip(&robots.cables) {
             let [x, z] = [cable.force[0].to_array(), cable.force[1].to_array()];
-            for (lane, force) in forces.iter_mut().enumerate() {
-                (force.x, force.y) = (x[lane], z[lane]);
+            for (lane, &i) in indices.iter().enumerate() {
+                equilibrium.cable_forces[i] = Vector2::new(x[lane], z[lane]);
             }
         }
+        equilibrium.pose = pose;
     }
 }
 

@@ -199,8 +199,9 @@ impl<S: Simd> Robots<'_, S> {
         platform.factored.replace(&SymmetricFactors::new(hessian), active);
     }
 
-    /// Gradient of the potential with the predicted forces, and the upper triangle of its derivative, which
-    /// has one on the diagonal for constrained motions.
+    /// Gradient of the potential with the predicted forces, and the upper triangle of its derivative, whose
+    /// moments turn with the forces as they are: these of stiff cables are far from their prediction. It has
+    /// one on the diagonal for constrained motions.
     ///
     /// Where moments are out of balance the derivative of the gradient is not symmetric. The skew part is
     /// dropped: it is proportional to the residual moment, which vanishes at equilibrium, and that under a
@@ -240,7 +241,7 @@ impl<S: Simd> Robots<'_, S> {
         (gradient, hessian)
     }
 
-    /// Adds -F_i of a cable with its moment, and its stiffness, (S5).
+    /// Adds -F_i of a cable as predicted with its moment, and its stiffness, (S5).
     #[inline(always)]
     fn add_cable(
         &self,
@@ -269,7 +270,9 @@ impl<S: Simd> Robots<'_, S> {
             swivel.add_to(&counted.plane, &mut force, &mut in_space);
         }
         add(forces, arm, &force);
-        add_stiffness(stiffness, arm, &force, &in_space);
+        let [x, z] = self.cables[i].force;
+        let now = counted.plane.lift([self.counted(i, x), self.counted(i, z)]);
+        add_stiffness(stiffness, arm, &now, &in_space);
     }
 
     /// The value in the lanes of cable `i` that count, zero in the others.
