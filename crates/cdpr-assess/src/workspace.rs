@@ -22,6 +22,7 @@ use crate::workspace::results::{Dominant, Held, Recomputed, WorkspacePose};
 use cdpr_dynamics::{LargestInBand, Swing};
 use cdpr_robot::{Axis, Platform, Pose, Robot, Vector3};
 use cdpr_statics::batch::{LoadedPose, PoseSlopes, loaded_poses};
+use cdpr_statics::limits::{OutOfLimits, allowed, out_of_limits};
 use cdpr_statics::{
     Deflection, DirectProblem, DirectStart, InverseSolution, Load, StaticsError, Unstable, WantedPose,
     deflection, deflection_from, derivatives, inverse, is_feasible,
@@ -237,7 +238,11 @@ fn tensions_at_rest<'a>(
 impl Recomputed {
     fn of(workspace: &Workspace, wound_up: &InverseSolution) -> Result<Self, StaticsError> {
         let [least_tension, greatest_tension] = range(tensions_at_rest(workspace, wound_up)?);
-        Ok(Self { least_tension, greatest_tension })
+        let (robot, InverseSolution { lengths, equilibrium, .. }) = (workspace.robot, wound_up);
+        // Tensions below the least one are those of a platform on few cables, which stands as it does.
+        let mut out_of_limits = out_of_limits(robot, lengths, &[equilibrium]);
+        out_of_limits.retain(OutOfLimits::is_too_much);
+        Ok(Self { least_tension, greatest_tension, out_of_limits })
     }
 }
 
@@ -268,7 +273,7 @@ pub fn workspace_boundary(
             (Way::Kept, _) => within(held_free(workspace, &pose).map(|(held, _)| held)),
             // Free coordinates are found whatever the limits are.
             (Way::Recomputed, _) => wound_up(workspace, &[pose], load).into_iter().flatten().any(|found| {
-                let within = |(i, t): (usize, &f64)| *t <= robot.limits(i).max && *t >= robot.limits(i).min;
+                let within = |(i, t): (usize, &f64)| *t <= allowed(robot, i).max && *t >= robot.limits(i).min;
                 tensions_at_rest(workspace, &found)
                     .is_ok_and(|tensions| tensions.iter().enumerate().all(within))
             }),

@@ -96,6 +96,14 @@ impl OutOfLimits {
     }
 }
 
+/// The tensions that the models choose for cable `i`: within its limits, and at most the breaking force where its
+/// greatest tension is limited.
+pub fn allowed(robot: &Robot, i: usize) -> TensionLimits {
+    let TensionLimits { min, max } = robot.limits(i);
+    let breaking = robot.cables[i].properties.breaking_force.unwrap_or(f64::INFINITY);
+    TensionLimits { min, max: max.min(breaking.max(min)) }
+}
+
 /// The tensions of a robot with these unstrained lengths [m] that are out of limits in any of the equilibria,
 /// at either end: at most one for each cable, that beyond the most serious limit.
 pub fn out_of_limits(robot: &Robot, lengths: &[f64], equilibria: &[&Equilibrium]) -> Vec<OutOfLimits> {

@@ -8,7 +8,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::time::Instant;
 
-/// A robot of the library without breaking forces, which the inverse model does not know as limits.
+/// A robot of the library without breaking forces.
 fn robot(name: &str) -> Robot {
     let path = format!("{}/../../data/robots/{name}.json", env!("CARGO_MANIFEST_DIR"));
     let mut robot = Robot::from_json(&std::fs::read_to_string(path).unwrap()).unwrap();

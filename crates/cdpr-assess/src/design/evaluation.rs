@@ -8,6 +8,7 @@ use crate::design::variable::Variable;
 use cdpr_dynamics::{FrequencyDerivatives, Modes, Swing};
 use cdpr_robot::{CableEnd, Parameter, Robot};
 use cdpr_statics::derivatives::derivatives_from;
+use cdpr_statics::limits::allowed;
 use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, Load, StaticsError, WantedPose, deflection, deflection_from,
     derivatives, inverse,
@@ -125,12 +126,6 @@ impl Over {
     }
 }
 
-/// The tension of a cable that a design may not pass [N].
-pub(crate) fn greatest_tension(robot: &Robot, cable: usize) -> f64 {
-    let breaking_force = robot.cables[cable].properties.breaking_force;
-    robot.limits(cable).max.min(breaking_force.unwrap_or(f64::INFINITY))
-}
-
 /// The sum of `factors` times the quantities.
 fn total(quantities: &[Quantity], factors: &[f64]) -> Quantity {
     let sum = |of: &dyn Fn(&Quantity) -> f64| {
@@ -246,7 +241,7 @@ impl AtPose<'_> {
                     self.quantity(anchor, &row)
                 }
             };
-            excesses.push(tension.scaled(1.0 / greatest_tension(robot, i), -1.0));
+            excesses.push(tension.scaled(1.0 / allowed(robot, i).max, -1.0));
         }
     }
 

@@ -1,13 +1,14 @@
 //! The searches of a design: from every start in every configuration.
 
 use crate::design::demand::Demand;
-use crate::design::evaluation::{Evaluation, greatest_tension};
+use crate::design::evaluation::Evaluation;
 use crate::design::exhaustive::{Exhausted, exhausted, single};
 use crate::design::goal::sense;
 use crate::design::problem::{DesignProblem, STEP};
 use crate::design::search::{Found, MET, Search};
 use cdpr_robot::{Pose, significant};
 use cdpr_sensitivity::Sobol;
+use cdpr_statics::limits::allowed;
 use cdpr_study::StudyError;
 use rayon::prelude::*;
 
@@ -96,7 +97,7 @@ fn passed(problem: &DesignProblem, values: &[f64], at: &Evaluation) -> String {
             words(what, limit * (1.0 + sense(output) * excess), limit, output.unit())
         }
         Demand::Tension { pose, cable } => {
-            let limit = problem.robot_at(values).map_or(f64::NAN, |robot| greatest_tension(&robot, cable));
+            let limit = problem.robot_at(values).map_or(f64::NAN, |robot| allowed(&robot, cable).max);
             let what = format!("at pose {} the tension of cable {}", pose + 1, cable + 1);
             words(what, limit * (1.0 + excess), limit, "N")
         }

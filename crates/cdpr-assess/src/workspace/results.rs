@@ -38,13 +38,15 @@ pub struct WorkspacePose {
     pub breaks: Option<Box<Result<AfterBreaks, StaticsError>>>,
 }
 
-/// Tensions within the limits that hold a pose under the load.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Tensions that hold a pose under the load.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Recomputed {
     /// Least tension at the platform [N].
     pub least_tension: f64,
     /// Greatest tension at the platform [N].
     pub greatest_tension: f64,
+    /// Tensions above a breaking force or a limit.
+    pub out_of_limits: Vec<OutOfLimits>,
 }
 
 /// A pose with feasible tensions, on lengths that the load does not change.
@@ -90,6 +92,9 @@ pub struct Dominant {
 
 /// The status of a position that is held with all tensions within the limits.
 pub const HELD: &str = "held";
+
+/// That of a position that is held with a tension out of its limits.
+pub(super) const BEYOND_LIMITS: &str = "beyond_limits";
 
 impl Held {
     pub(super) fn new(robot: &Robot, loaded: LoadedPose, dominant: Option<Dominant>) -> Self {

@@ -6,7 +6,7 @@ use crate::safety::factored::Situation;
 use crate::safety::winds::Winds;
 use crate::workspace::breaks::AfterBreaks;
 use crate::workspace::question::Workspace;
-use crate::workspace::results::{Dominant, HELD, WorkspacePose};
+use crate::workspace::results::{BEYOND_LIMITS, Dominant, HELD, WorkspacePose};
 use cdpr_statics::limits::OutOfLimits;
 use cdpr_statics::{Load, StaticsError};
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -47,8 +47,8 @@ pub struct WorkspaceRow {
     pub std_mm: Option<f64>,
     /// Why the pose is not held, or a value is missing.
     pub reason: Option<String>,
-    /// `held` where tensions recomputed hold the pose under the load, else the kind of failure; this
-    /// and the following are empty without a load.
+    /// `held` where tensions recomputed hold the pose under the load; `beyond_limits` where they are above a
+    /// limit or a breaking force; else the kind of failure. This and the following are empty without a load.
     pub recomputed_status: Option<&'static str>,
     pub recomputed_least_tension: Option<f64>,
     pub recomputed_greatest_tension: Option<f64>,
@@ -155,9 +155,14 @@ impl WorkspaceRow {
         let shaken_by = shaken.and_then(|shaken| shaken.as_ref().ok());
         let (status, reason) = match &pose.outcome {
             Ok(held) if held.is_within_limits() => (HELD, overflow.then(|| OVERFLOW.to_owned())),
-            Ok(held) => ("beyond_limits", Some(in_words(&held.out_of_limits))),
+            Ok(held) => (BEYOND_LIMITS, Some(in_words(&held.out_of_limits))),
             Err(error) => (error.kind(), Some(error.to_string())),
         };
+        let again = recomputed.map(|recomputed| match recomputed {
+            Ok(within) if within.out_of_limits.is_empty() => (HELD, None),
+            Ok(beyond) => (BEYOND_LIMITS, Some(in_words(&beyond.out_of_limits))),
+            Err(error) => (error.kind(), Some(error.to_string())),
+        });
         let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
         Self {
             x_m: x,
@@ -183,10 +188,10 @@ impl WorkspaceRow {
             dominant_share: dominant.map(|dominant| dominant.share),
             std_mm: dominant.map(|dominant| 1e3 * dominant.std),
             reason,
-            recomputed_status: recomputed.map(|of| of.as_ref().map_or_else(StaticsError::kind, |_| HELD)),
+            recomputed_status: again.as_ref().map(|(status, _)| *status),
             recomputed_least_tension: tensions.map(|recomputed| recomputed.least_tension),
             recomputed_greatest_tension: tensions.map(|recomputed| recomputed.greatest_tension),
-            recomputed_reason: recomputed.and_then(|of| of.as_ref().err().map(ToString::to_string)),
+            recomputed_reason: again.and_then(|(_, reason)| reason),
             payload_recomputed_kg: value(|capacity| &capacity.payload_recomputed),
             payload_recomputed_blocked_by: blocked_by(pose, |capacity| &capacity.payload_recomputed),
             payload_kept_kg: value(|capacity| &capacity.payload_kept),

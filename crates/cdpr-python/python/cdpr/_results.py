@@ -67,6 +67,14 @@ class Sampling(Table):
         """What could not be computed, and why."""
         return list(self.content["notes"])
 
+    @property
+    def verdict(self) -> str:
+        """The answer in words, as the program prints it."""
+        return "\n".join(self.content["verdict"]["sentences"])
+
+    def __repr__(self) -> str:
+        return f"<cdpr.study.Sampling: {' '.join(self.content['verdict']['sentences'][:2])}>"
+
 
 class Results:
     """The results of a study, in their folder."""

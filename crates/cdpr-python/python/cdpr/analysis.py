@@ -151,10 +151,9 @@ class Analysis(Table):
 
     def __repr__(self) -> str:
         of = self.summary
-        leading = ", ".join(f"{self.inputs[k][:40]} {self.dependence[k]:.2f}" for k in self._leading(3))
         return (
             f"<cdpr.analysis.Analysis of {self.output[:40]}: {of['count']} rows, {of['failed']} failed, "
-            f"mean {of['mean']:.4g}, std {of['std']:.4g}; strongest (HSIC R^2): {leading}>"
+            f"mean {of['mean']:.4g}, std {of['std']:.4g}; {self.content['verdict']['sentences'][0]}>"
         )
 
 

@@ -4,12 +4,12 @@ use crate::page::elements::{cell, numeric, table};
 use crate::parameters;
 use crate::text::{self, wrench_words};
 use cdpr_study::{
-    Output, Overview, PartVerdict, PosesSummary, RecommendedIndex, Results, SamplingSummary, StudySummary,
-    Summary, SurfaceSummary,
+    MATTERS, Output, Overview, PartVerdict, PosesSummary, RecommendedIndex, Results, SamplingSummary, Standing,
+    StudySummary, Summary, SurfaceSummary,
 };
 use maud::{Markup, html};
 
-/// Largest number of dominant parameters, and the least share of the largest index that such a parameter has.
+/// Largest number of dominant parameters, and the least share of the largest t-Student index that one has.
 const DOMINANT: usize = 3;
 const LEAST: f64 = 0.25;
 
@@ -113,14 +113,28 @@ pub(crate) fn poses(summary: &Summary) -> impl Iterator<Item = (&str, &PosesSumm
     })
 }
 
-/// Dominant parameters: those with the largest t-Student index, the largest first.
-fn dominant(sampling: &SamplingSummary) -> Vec<(&str, f64)> {
+/// Dominant parameters, the first one first, and how that is known: those that matter for certain, by the largest
+/// t-Student index where no bounds say so.
+fn dominant(sampling: &SamplingSummary) -> (Vec<&str>, String) {
+    let recommendation = sampling.verdict.recommendation.as_ref();
+    let bounded = recommendation.filter(|of| of.inputs.iter().any(|input| input.standing.is_some()));
+    if let Some(bounded) = bounded {
+        let mut matter = bounded.with(Standing::Matters);
+        matter.truncate(DOMINANT);
+        return (matter, format!("above {} % of the variance", 100.0 * MATTERS));
+    }
     let mut effects: Vec<_> = sampling.t_student.iter().map(|(name, t)| (name.as_str(), *t)).collect();
     effects.sort_by(|one, other| other.1.total_cmp(&one.1));
     effects.truncate(DOMINANT);
     let least = effects.first().map_or(0.0, |largest| LEAST * largest.1);
     effects.retain(|effect| effect.1 > 0.0 && effect.1 >= least);
-    effects
+    let indices: Vec<_> = effects.iter().map(|effect| text::figures(effect.1, 3)).collect();
+    (effects.into_iter().map(|effect| effect.0).collect(), format!("t = {}", indices.join(", ")))
+}
+
+/// The symbols of some parameters.
+fn symbols(names: &[&str]) -> String {
+    names.iter().map(|name| parameters::symbol(name)).collect::<Vec<_>>().join(", ")
 }
 
 fn cards(summary: &Summary, output: Output) -> Markup {
@@ -141,13 +155,8 @@ fn cards(summary: &Summary, output: Output) -> Markup {
                 (card(&nominal, &text::figures(surface.values.nominal, 4), unit, name))
             }
             @if let Some((_, sampling)) = first {
-                @let effects = dominant(sampling);
-                @let symbols: Vec<_> = effects.iter().map(|effect| parameters::symbol(effect.0)).collect();
-                @let indices: Vec<_> = effects.iter().map(|effect| text::figures(effect.1, 3)).collect();
-                @if !effects.is_empty() {
-                    (card("Dominant parameters",
-                        &symbols.join(", "), "", &format!("t = {}", indices.join(", "))))
-                }
+                @let (names, known_by) = dominant(sampling);
+                @if !names.is_empty() { (card("Dominant parameters", &symbols(&names), "", &known_by)) }
             }
             (card("Failed observations", &failed.to_string(), "", "counted, in no statistic"))
         }
@@ -173,9 +182,8 @@ fn overview(summary: &Summary, output: Output) -> Markup {
             let Overview { nominal, mean, std, min, max, .. } = study.overview();
             let (law, leading) = match study {
                 StudySummary::Sampling(sampling) => {
-                    let leading: Vec<_> =
-                        dominant(sampling).iter().map(|effect| parameters::symbol(effect.0)).collect();
-                    (sampling.best_fit.map_or_else(String::new, |fit| fit.to_string()), leading.join(", "))
+                    let law = sampling.best_fit.map_or_else(String::new, |fit| fit.to_string());
+                    (law, symbols(&dominant(sampling).0))
                 }
                 StudySummary::Surface(surface) => {
                     let over = surface.parameters.each_ref().map(|name| parameters::symbol(name)).join(", ");

@@ -174,6 +174,10 @@ impl InverseProblem<'_> {
     /// Lowers the greatest tension of cable i to its breaking force, if that is less.
     fn bound_by_breaking(&mut self, i: usize, greatest: &mut Limit) -> Result<(), StaticsError> {
         let limits = self.limits[i];
+        let force = self.robot.cables[i].properties.breaking_force;
+        if force.is_some_and(|force| force < self.robot.limits(i).max) {
+            *greatest = Limit::BreakingForce;
+        }
         if let Some(max) = breaking_limit(self.robot, self.pose, i, limits)? {
             self.limits[i].max = max.max(limits.min);
             *greatest = Limit::BreakingForce;

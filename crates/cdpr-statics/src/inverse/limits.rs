@@ -7,6 +7,7 @@
 use super::wanted::pose_alone;
 use crate::equations::Ends;
 use crate::error::StaticsError;
+use crate::out_of_limits::allowed;
 use crate::state::{Wanted, one_by_one};
 use cdpr_cable::{LONGEST_TAUT, MAX_STRAIN};
 use cdpr_robot::{CableEnd, Pose, Robot, TensionLimits};
@@ -27,7 +28,7 @@ pub fn limits_at<W: Wanted>(
 /// [`limits_at`] at one pose.
 pub(super) fn platform_limits(robot: &Robot, pose: &Pose) -> Result<Vec<TensionLimits>, StaticsError> {
     let at_platform = |i: usize| {
-        let limits = robot.limits(i);
+        let limits = allowed(robot, i);
         match robot.max_at(i) {
             CableEnd::Anchor => Ok(limits),
             CableEnd::Exit => {

@@ -1,6 +1,7 @@
 //! The inverse problem: a robot, a pose, a load, and which tensions are chosen.
 
 use super::limits::platform_limits;
+use crate::out_of_limits::allowed;
 use crate::error::StaticsError;
 use crate::state::Load;
 use cdpr_robot::{Pose, Robot, TensionDistribution, TensionLimits, Vector6};
@@ -63,7 +64,7 @@ impl<'a> InverseProblem<'a> {
         if let Some((i, value)) = reference.iter().enumerate().find(|(_, value)| !value.is_finite()) {
             return Err(StaticsError::invalid(format!("reference[{i}]"), value, "a finite tension [N]"));
         }
-        let limits = (0..n).map(|i| robot.limits(i)).collect();
+        let limits = (0..n).map(|i| allowed(robot, i)).collect();
         let (characteristic_length, external) = external(robot, pose, load);
         Ok(Self { robot, pose, load, distribution, reference, limits, characteristic_length, external })
     }

@@ -5,6 +5,7 @@ pub(crate) mod run;
 
 use crate::analysis::measures::{InputMeasures, SubspaceSummary};
 use crate::analysis::methods::run::{Found, MethodSummary, Run};
+use crate::analysis::verdict::recommendation::{Basis, Candidate};
 use crate::file::output::VectorOutput;
 use crate::model::designs::{Design, Grouped, key};
 use crate::model::observed::Measured;
@@ -263,8 +264,9 @@ fn sobol(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn 
     }
     let (failed_blocks, reliable) = (Some(indices.failed_blocks), Some(indices.reliable));
     let summary = MethodSummary { failed_blocks, reliable, ..MethodSummary::of(&outputs) };
-    // The bootstrap takes long, and what settles an input already comes first.
-    if indices.reliable && !found.candidates.iter().any(|of| of.settled() > 0) {
+    // The bootstrap takes long: not where derivatives settle all inputs.
+    let is_settled = |of: &Candidate| of.basis == Basis::Derivatives && of.settled() == found.inputs.len();
+    if indices.reliable && !found.candidates.iter().any(is_settled) {
         found.candidates.push(candidates::of_sobol(run, &design, &outputs, &summary)?);
     }
     Ok(Some(summary))

@@ -37,9 +37,8 @@ pub(crate) struct Choice {
 impl Choice {
     /// What cable `i` of a robot may have.
     pub(crate) fn new(robot: &Robot, i: usize, reference: f64, shape: Shape<f64>) -> Self {
-        let limits = robot.limits(i);
-        let breaking_force = robot.cables[i].properties.breaking_force.unwrap_or(f64::MAX);
-        Self { reference, limits, max_at: robot.max_at(i), bearable: breaking_force.min(limits.max), shape }
+        let limits = allowed(robot, i);
+        Self { reference, limits, max_at: robot.max_at(i), bearable: limits.max, shape }
     }
 }
 

@@ -11,6 +11,13 @@ use cdpr_sensitivity::{
     sobol_indices,
 };
 
+/// Level of each input for the confidence of all together, by derivatives and by Sobol' indices where the study
+/// has both.
+fn level(run: &Run) -> f64 {
+    let bases = if run.spec.saltelli_blocks > 0 { 2 } else { 1 };
+    joint_level(run.settings.confidence, run.inputs().len() * bases)
+}
+
 /// Bounds of the total shares by derivatives, for all inputs together.
 pub(super) fn of_derivatives(
     run: &Run,
@@ -18,7 +25,7 @@ pub(super) fn of_derivatives(
     slopes: &[Option<Slopes>],
     summary: &MethodSummary,
 ) -> Result<Candidate, SensitivityError> {
-    let level = joint_level(run.settings.confidence, run.inputs().len());
+    let level = level(run);
     let together = brackets(design, slopes, level, run.settings.seed)?;
     let squares = dgsm(design, slopes, level)?.inputs;
     let bounds = together.iter().zip(&squares).map(|(of, square)| TotalBounds {
@@ -32,7 +39,8 @@ pub(super) fn of_derivatives(
     let points = summary.observations;
     Ok(Candidate {
         basis: Basis::Derivatives,
-        measure: format!("total share of the variance, bounded by exact derivatives at {points} points"),
+        measure: "total share of the variance, bounded by ",
+        by: format!("exact derivatives at {points} points"),
         failed: summary.failed,
         count: points,
         observations: 1,
@@ -46,7 +54,8 @@ pub(super) fn of_model(model: &Expansion, summary: &MethodSummary) -> Candidate 
     let error = significant(100.0 * model.leave_one_out, 2);
     Candidate {
         basis: Basis::Expansion,
-        measure: format!("total share of the variance by a polynomial model, whose error is {error} % of it"),
+        measure: "total share of the variance by ",
+        by: format!("a polynomial model, whose error is {error} % of it"),
         failed: summary.failed,
         count: summary.observations,
         observations: 1,
@@ -61,7 +70,7 @@ pub(super) fn of_sobol(
     outputs: &[Option<f64>],
     summary: &MethodSummary,
 ) -> Result<Candidate, SensitivityError> {
-    let level = joint_level(run.settings.confidence, run.inputs().len());
+    let level = level(run);
     let SobolIndices { inputs, blocks, .. } = sobol_indices(design, outputs, run.bootstrap(), level)?;
     let bounds = inputs.iter().map(|of| TotalBounds {
         low: of.total.low.max(0.0),
@@ -72,7 +81,8 @@ pub(super) fn of_sobol(
     });
     Ok(Candidate {
         basis: Basis::Sobol,
-        measure: format!("total share of the variance, by {blocks} blocks of Sobol' indices"),
+        measure: "total share of the variance, by ",
+        by: format!("{blocks} blocks of Sobol' indices"),
         failed: summary.failed,
         count: blocks,
         observations: run.inputs().len() + 2,
@@ -86,7 +96,8 @@ pub(super) fn of_shapley(run: &Run, inputs: &[InputMeasures], summary: &MethodSu
     let confidence = 100.0 * run.settings.confidence;
     Some(Candidate {
         basis: Basis::Shapley,
-        measure: format!("Shapley effect: share of the variance, {confidence} % confidence for each input"),
+        measure: "Shapley effect: share of the variance, ",
+        by: format!("{confidence} % confidence for each input"),
         failed: summary.failed,
         count: run.spec.shapley_walks,
         observations: run.inputs().len() + 1,
@@ -99,7 +110,8 @@ pub(super) fn of_ranks(inputs: &[InputMeasures], summary: &MethodSummary) -> Opt
     let value = |of: &InputMeasures| Some((of.rank_regression_share?, None));
     Some(Candidate {
         basis: Basis::Ranks,
-        measure: "squared coefficient of a regression of ranks, without bounds".to_owned(),
+        measure: "squared coefficient of ",
+        by: "a regression of ranks, without bounds".to_owned(),
         failed: summary.failed,
         count: summary.observations,
         observations: 1,

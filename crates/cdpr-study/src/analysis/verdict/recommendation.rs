@@ -10,17 +10,19 @@
 //!
 //! ```text
 //! √(T_g (1 - e)) - √e <= √T <= √(T_g (1 - e)) + √e                                   (Rc1)
-//! 1 - level of each input = (1 - confidence) / number of inputs                      (Rc2)
+//! 1 - level of each bound = (1 - confidence) / (number of inputs x number of bases)  (Rc2)
 //! ```
 //!
 //! - (Rc1): T_g is the index of the expansion g, which has the share 1 - e of the output's variance. What an
 //!   input takes part in is a projection of the output, √T its norm, and the rest of the output, which g lacks,
 //!   has the norm √e.
-//! - (Rc2): by C. E. Bonferroni, so that a verdict on many inputs is as certain as one on a single input.
+//! - (Rc2): by C. E. Bonferroni, so that a verdict on many inputs is as certain as one on a single input, also
+//!   where derivatives settle some of them and Sobol' indices the others.
 //!
 //! Of derivatives and Sobol' indices the one that settles more inputs is recommended, derivatives where both
-//! settle as many; the expansion where neither settles any. Where none does, Shapley effects or ranks, which
-//! have no bounds, put the inputs in an order.
+//! settle as many, and an input that it leaves open has the bounds of the other where these settle it; the
+//! expansion where neither settles any. Where none does, Shapley effects or ranks, which have no bounds, put the
+//! inputs in an order.
 
 use cdpr_sensitivity::is_resolved;
 use serde::{Deserialize, Serialize};
@@ -106,8 +108,9 @@ pub(crate) struct TotalBounds {
 /// A basis with what it says of the inputs, in their order.
 pub(crate) struct Candidate {
     pub(crate) basis: Basis,
-    /// The measure in words.
-    pub(crate) measure: String,
+    /// The measure in words, and what it is known by.
+    pub(crate) measure: &'static str,
+    pub(crate) by: String,
     /// Observations or points that failed.
     pub(crate) failed: usize,
     /// Points of derivatives or blocks.
@@ -117,6 +120,7 @@ pub(crate) struct Candidate {
     pub(crate) said: Said,
 }
 
+#[derive(Clone)]
 pub(crate) enum Said {
     /// Bounds of the total share.
     Bounds(Vec<TotalBounds>),
@@ -124,9 +128,9 @@ pub(crate) enum Said {
     Values(Vec<(f64, Option<[f64; 2]>)>),
 }
 
-/// Level of each input for the confidence of all (Rc2).
-pub(crate) fn joint_level(confidence: f64, inputs: usize) -> f64 {
-    1.0 - (1.0 - confidence) / inputs.max(1) as f64
+/// Level of each of some bounds for the confidence of all (Rc2).
+pub(crate) fn joint_level(confidence: f64, bounds: usize) -> f64 {
+    1.0 - (1.0 - confidence) / bounds.max(1) as f64
 }
 
 /// Bounds of the total share by an expansion (Rc1).
@@ -154,6 +158,7 @@ pub(crate) fn recommend(
     // Derivatives do not see the jumps of an output.
     let refuted = candidates.iter().any(|of| of.basis == Basis::Sobol && of.contradicts(&candidates));
     candidates.retain(|of| of.basis != Basis::Derivatives || !refuted);
+    complete(&mut candidates);
     candidates.sort_by_key(rank);
     // Where points of derivatives cannot settle the others, blocks may, and where nothing is bounded.
     let of_blocks =
@@ -167,7 +172,31 @@ pub(crate) fn recommend(
     Some(Recommendation { remedy: of_blocks.filter(|_| is_left).or(found.remedy), ..found })
 }
 
+/// Gives inputs that derivatives leave open the bounds by Sobol' indices that settle them, and the other way.
+fn complete(candidates: &mut [Candidate]) {
+    let alone = |basis| candidates.iter().find(|of| of.basis == basis).map(|of| (of.by.clone(), of.said.clone()));
+    let [derivatives, blocks] = [Basis::Derivatives, Basis::Sobol].map(alone);
+    for of in candidates {
+        let other = match of.basis {
+            Basis::Derivatives => &blocks,
+            Basis::Sobol => &derivatives,
+            _ => continue,
+        };
+        let (Said::Bounds(own), Some((by, Said::Bounds(others)))) = (&mut of.said, other) else { continue };
+        let pairs = own.iter_mut().zip(others);
+        let mut settled = pairs.filter(|(own, other)| own.is_open() && !other.is_open()).peekable();
+        if settled.peek().is_some() {
+            of.by += &format!(" or {by}");
+        }
+        settled.for_each(|(own, other)| *own = *other);
+    }
+}
+
 impl TotalBounds {
+    pub(crate) fn is_open(&self) -> bool {
+        self.standing() == Standing::Open
+    }
+
     pub(crate) fn standing(&self) -> Standing {
         if self.low > MATTERS {
             Standing::Matters
@@ -184,7 +213,8 @@ impl Candidate {
     pub(crate) fn of_student(values: Vec<f64>) -> Self {
         Self {
             basis: Basis::Student,
-            measure: "t-Student index, without bounds".to_owned(),
+            measure: "t-Student index, ",
+            by: "without bounds".to_owned(),
             failed: 0,
             count: 0,
             observations: 1,
@@ -195,7 +225,7 @@ impl Candidate {
     /// Number of inputs whose bounds are on one side of [`MATTERS`].
     pub(crate) fn settled(&self) -> usize {
         match &self.said {
-            Said::Bounds(bounds) => bounds.iter().filter(|of| of.standing() != Standing::Open).count(),
+            Said::Bounds(bounds) => bounds.iter().filter(|of| !of.is_open()).count(),
             Said::Values(_) => 0,
         }
     }
@@ -248,7 +278,7 @@ impl Candidate {
         };
         Recommendation {
             basis: self.basis,
-            measure: self.measure + &failed,
+            measure: format!("{}{}{failed}", self.measure, self.by),
             confidence: joint.then_some(confidence),
             inputs: inputs.into_iter().map(|(_, index)| index).collect(),
             remedy,
@@ -266,8 +296,9 @@ mod tests {
     }
 
     fn candidate(basis: Basis, count: usize, of: Vec<TotalBounds>) -> Candidate {
-        let measure = "measure".to_owned();
-        Candidate { basis, measure, failed: 0, count, observations: 10, said: Said::Bounds(of) }
+        let by = format!("{count} of {basis:?}");
+        let said = Said::Bounds(of);
+        Candidate { basis, measure: "measure by ", by, failed: 0, count, observations: 10, said }
     }
 
     fn names(count: usize) -> Vec<String> {
@@ -320,9 +351,24 @@ mod tests {
             recommend(&names(2), vec![derivatives, blocks], 0.95).unwrap()
         };
         let settled = found(bounds(0.0, 0.0, 0.0, 0.001));
-        assert_eq!((settled.basis, settled.remedy), (Basis::Sobol, None));
+        assert_eq!((settled.basis, settled.remedy), (Basis::Derivatives, None));
+        assert_eq!(settled.measure, "measure by 64 of Derivatives or 64 of Sobol");
+        assert_eq!(settled.inputs[1].standing, Some(Standing::Negligible));
         let open = found(bounds(0.0, 0.1, 0.1, 0.2)).remedy.unwrap();
         assert!(open.contains("`sensitivity.saltelli_blocks`: 128"), "{open}");
+    }
+
+    #[test]
+    fn an_input_that_derivatives_leave_open_and_blocks_settle_matters() {
+        let (apart, certain) = (bounds(0.0, 0.001, 0.9, 1.0), bounds(0.0, 0.0, 0.0, 0.001));
+        let derivatives = vec![apart, certain, certain, apart];
+        let blocks = vec![bounds(0.6, 0.7, 0.7, 0.8), bounds(0.0, 0.0, 0.0, 0.1), bounds(0.0, 0.0, 0.0, 0.1), apart];
+        let both = vec![candidate(Basis::Derivatives, 64, derivatives), candidate(Basis::Sobol, 128, blocks)];
+        let found = recommend(&names(4), both, 0.95).unwrap();
+        assert_eq!((found.with(Standing::Matters), found.with(Standing::Open)), (vec!["x0"], vec!["x3"]));
+        assert_eq!((found.inputs[0].input.as_str(), found.inputs[0].value), ("x0", Some(0.7)));
+        // The bounds of x3 lie on both sides for both.
+        assert!(found.remedy.unwrap().contains("The share of x3 is so near"));
     }
 
     #[test]

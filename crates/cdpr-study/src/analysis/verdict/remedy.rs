@@ -1,10 +1,13 @@
 //! What would settle the inputs that a recommendation leaves open.
 
-use crate::analysis::verdict::recommendation::{Basis, Candidate, MATTERS, Said, Standing, TotalBounds};
+use crate::analysis::verdict::recommendation::{Basis, Candidate, MATTERS, Said, TotalBounds};
 use cdpr_robot::listing;
 
 /// How many times as many points are tried first where few of them decide a bound.
 const TRIED: f64 = 4.0;
+
+/// Blocks of Sobol' indices that are tried first.
+const BLOCKS: usize = 64;
 
 /// Most points or blocks that a remedy names.
 const MOST: f64 = (1 << 20) as f64;
@@ -40,18 +43,20 @@ impl Candidate {
     /// How many points or blocks settle the inputs that are open, if any number does.
     pub(crate) fn wanted(&self) -> Option<usize> {
         let Said::Bounds(bounds) = &self.said else { return None };
-        let open = bounds.iter().filter(|of| of.standing() == Standing::Open);
+        let open = bounds.iter().filter(|of| of.is_open());
         open.map(|of| self.wanted_by(of)).collect::<Option<Vec<_>>>()?.into_iter().max()
     }
 
     /// What settles the inputs that are open.
     pub(crate) fn remedy(&self, names: &[String]) -> Option<String> {
         let Said::Bounds(bounds) = &self.said else {
-            let sentence =
-                "Bounds need independent inputs and 64 `sensitivity.saltelli_blocks` without a failure.";
-            return (self.basis != Basis::Shapley).then(|| sentence.to_owned());
+            return (self.basis != Basis::Shapley).then(|| {
+                format!(
+                    "Bounds need independent inputs and {BLOCKS} `sensitivity.saltelli_blocks` without a failure."
+                )
+            });
         };
-        let open = || names.iter().zip(bounds).filter(|(_, of)| of.standing() == Standing::Open);
+        let open = || names.iter().zip(bounds).filter(|(_, of)| of.is_open());
         open().next()?;
         let more = |count: usize| count.saturating_sub(self.count) * self.observations;
         Some(match (self.basis, self.wanted()) {
@@ -64,10 +69,11 @@ impl Candidate {
                 "To settle it: about {} more observations (`sensitivity.saltelli_blocks`: {count}).",
                 more(count)
             ),
-            (Basis::Derivatives, None) => {
-                "To settle it: Sobol' indices (`sensitivity.saltelli_blocks`), as derivatives alone cannot."
-                    .to_owned()
-            }
+            (Basis::Derivatives, None) => format!(
+                "To settle it: Sobol' indices, as derivatives alone cannot; {BLOCKS} \
+                 `sensitivity.saltelli_blocks` at first, {} observations.",
+                BLOCKS * (names.len() + 2)
+            ),
             (Basis::Expansion, _) => format!(
                 "To settle it: more than {} `observations` of the sampling and of `sensitivity`, or Sobol' \
                  indices.",
