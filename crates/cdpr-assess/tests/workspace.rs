@@ -146,7 +146,8 @@ fn tensions_recomputed_above_a_breaking_force_hold_nothing() {
     let mut few = Robot::from_library("four-cables").unwrap();
     few.cables.iter_mut().for_each(|cable| cable.properties.breaking_force = Some(1.0));
     let grid = Grid::new([at(0.5), at(0.3), at(2.0)]).unwrap();
-    let workspace = Workspace { robot: &few, grid, free: &[Coordinate::Roll, Coordinate::Pitch], ..workspace };
+    let workspace =
+        Workspace { robot: &few, grid, free: &[Coordinate::Roll, Coordinate::Pitch], ..workspace };
     let breaking = row(&workspace);
     assert_eq!((breaking.status, breaking.recomputed_status), ("beyond_limits", Some("beyond_limits")));
     assert!(breaking.recomputed_reason.unwrap().contains("above its breaking force, 1 N"));

@@ -2,12 +2,13 @@
 
 use crate::common::{caroca, cogiro, fast, ipanema, stadium};
 use crate::pulleys::led;
-use cdpr_robot::{CableEnd, Pose, Robot, TensionReference};
+use cdpr_robot::{CableEnd, Pose, Robot, TensionReference, Vector3};
 use cdpr_statics::hysteresis::{HysteresisLaw, load_cycle};
 use cdpr_statics::limits::{Limit, OutOfLimits, limits_at, out_of_limits};
 use cdpr_statics::stiffness::stiffness_at;
 use cdpr_statics::{
-    Bound, InverseSolution, Load, StaticsError, WantedPose, deflection, inverse, is_feasible, set_point_lengths,
+    Bound, InverseSolution, Load, StaticsError, WantedPose, deflection, inverse, is_feasible,
+    set_point_lengths,
 };
 
 /// Robots of every kind at a pose that they hold, with a tension above those of least norm.
@@ -257,17 +258,18 @@ fn a_tension_is_named_by_the_most_serious_limit_that_it_passes_at_either_end() {
 fn a_breaking_force_limits_tensions_as_a_greatest_one_does() {
     for (robot, pose, _) in robots() {
         let most = held(&robot, &pose).tensions.iter().copied().fold(0.0, f64::max);
-        let poses: Vec<Pose> =
-            (0..9).map(|k| pose.moved(Vector3::new(0.01 * f64::from(k), 0.0, 0.0), Vector3::zeros())).collect();
-        for force in [1.1 * most, 0.99 * most, 0.9 * most, 0.5 * most] {
+        let poses: Vec<Pose> = (0..9)
+            .map(|k| pose.moved(Vector3::new(0.01 * f64::from(k), 0.0, 0.0), Vector3::zeros()))
+            .collect();
+        let least = robot.limits(0).min;
+        for force in [1.1 * most, 0.99 * most, 0.9 * most, 0.5 * most].map(|force| force.max(1.1 * least)) {
             let (mut limited, mut breaking) = (robot.clone(), robot.clone());
             for cables in [&mut limited.cables, &mut breaking.cables] {
                 cables.iter_mut().for_each(|cable| cable.properties.breaking_force = None);
             }
             limited.tension_limits.max = force;
             breaking.cables.iter_mut().for_each(|cable| cable.properties.breaking_force = Some(force));
-            let [found, known] =
-                [&breaking, &limited].map(|robot| inverse(robot, &poses[..], &Load::none()));
+            let [found, known] = [&breaking, &limited].map(|robot| inverse(robot, &poses[..], &Load::none()));
             for (found, known) in found.into_iter().zip(known) {
                 let tensions = |of: Result<InverseSolution, _>| of.map(|held| held.tensions).ok();
                 assert_eq!(tensions(found), tensions(known), "{} {force}", robot.name);

@@ -4,8 +4,8 @@ use crate::page::elements::{cell, numeric, table};
 use crate::parameters;
 use crate::text::{self, wrench_words};
 use cdpr_study::{
-    MATTERS, Output, Overview, PartVerdict, PosesSummary, RecommendedIndex, Results, SamplingSummary, Standing,
-    StudySummary, Summary, SurfaceSummary,
+    MATTERS, Output, Overview, PartVerdict, PosesSummary, RecommendedIndex, Results, SamplingSummary,
+    Standing, StudySummary, Summary, SurfaceSummary,
 };
 use maud::{Markup, html};
 

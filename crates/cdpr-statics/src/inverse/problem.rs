@@ -1,8 +1,8 @@
 //! The inverse problem: a robot, a pose, a load, and which tensions are chosen.
 
 use super::limits::platform_limits;
-use crate::out_of_limits::allowed;
 use crate::error::StaticsError;
+use crate::out_of_limits::allowed;
 use crate::state::Load;
 use cdpr_robot::{Pose, Robot, TensionDistribution, TensionLimits, Vector6};
 

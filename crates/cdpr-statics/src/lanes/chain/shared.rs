@@ -2,6 +2,7 @@
 
 use crate::local::cable::Shape;
 use crate::local::platform::Scale;
+use crate::out_of_limits::allowed;
 use cdpr_robot::{CableEnd, Robot, TensionLimits};
 
 /// A change of tensions that are still to be offset below this, relative to the longest cable or the sum of

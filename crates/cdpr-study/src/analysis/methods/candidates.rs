@@ -76,7 +76,7 @@ pub(super) fn of_sobol(
         low: of.total.low.max(0.0),
         at_least: of.total.value,
         at_most: of.total.value,
-        high: of.total.high,
+        high: of.total.high.min(1.0),
         few: false,
     });
     Ok(Candidate {

@@ -174,7 +174,8 @@ pub(crate) fn recommend(
 
 /// Gives inputs that derivatives leave open the bounds by Sobol' indices that settle them, and the other way.
 fn complete(candidates: &mut [Candidate]) {
-    let alone = |basis| candidates.iter().find(|of| of.basis == basis).map(|of| (of.by.clone(), of.said.clone()));
+    let alone =
+        |basis| candidates.iter().find(|of| of.basis == basis).map(|of| (of.by.clone(), of.said.clone()));
     let [derivatives, blocks] = [Basis::Derivatives, Basis::Sobol].map(alone);
     for of in candidates {
         let other = match of.basis {
@@ -362,7 +363,8 @@ mod tests {
     fn an_input_that_derivatives_leave_open_and_blocks_settle_matters() {
         let (apart, certain) = (bounds(0.0, 0.001, 0.9, 1.0), bounds(0.0, 0.0, 0.0, 0.001));
         let derivatives = vec![apart, certain, certain, apart];
-        let blocks = vec![bounds(0.6, 0.7, 0.7, 0.8), bounds(0.0, 0.0, 0.0, 0.1), bounds(0.0, 0.0, 0.0, 0.1), apart];
+        let blocks =
+            vec![bounds(0.6, 0.7, 0.7, 0.8), bounds(0.0, 0.0, 0.0, 0.1), bounds(0.0, 0.0, 0.0, 0.1), apart];
         let both = vec![candidate(Basis::Derivatives, 64, derivatives), candidate(Basis::Sobol, 128, blocks)];
         let found = recommend(&names(4), both, 0.95).unwrap();
         assert_eq!((found.with(Standing::Matters), found.with(Standing::Open)), (vec!["x0"], vec!["x3"]));

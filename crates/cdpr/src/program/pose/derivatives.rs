@@ -14,6 +14,7 @@ use crate::program::pose::derivatives::amplitude::Amplitude;
 use crate::program::pose::derivatives::leading::{LEADING, handy_unit};
 use crate::program::pose::derivatives::uncertainty::Uncertainty;
 use crate::program::pose::derivatives::weather::InWeather;
+use crate::program::pose::modes::swinging;
 use cdpr_dynamics::{DynamicsError, FrequencyDerivatives};
 use cdpr_robot::{Parameter, Robot, visible};
 use cdpr_statics::derivatives::OneSided;
@@ -292,9 +293,8 @@ impl Slopes {
         self.without.iter().for_each(|reason| print_sentence(reason));
         if let Some(Swing { platform_frequency_hz, platform_share, frequency_gap }) = &self.swing {
             print_sentence(&format!(
-                "The platform swings at {platform_frequency_hz:.4} Hz, with {} % of the energy of that motion; the \
-                 nearest other frequency is {} % away.",
-                decimal(100.0 * platform_share, 1),
+                "{}; the nearest other frequency is {} % away.",
+                swinging(*platform_frequency_hz, *platform_share),
                 decimal(100.0 * frequency_gap, 2)
             ));
         }

@@ -228,6 +228,22 @@ impl Row for Answer {
     }
 }
 
+/// Share of the energy of a motion from which on it is one of the platform.
+pub(crate) const OWN: f64 = 0.5;
+
+/// How fast the platform swings, where a motion is its own.
+pub(super) fn swinging(frequency: f64, share: f64) -> String {
+    let percent = decimal(100.0 * share, 1);
+    if share < OWN {
+        format!(
+            "The platform swings in many motions of the cables: the one that has most of it, at {frequency:.4} Hz, \
+             has {percent} % of its energy there"
+        )
+    } else {
+        format!("The platform swings at {frequency:.4} Hz, with {percent} % of the energy of that motion")
+    }
+}
+
 impl Answer {
     fn new(robot: &Robot, found: &Modes, swing: Option<Swing>) -> Self {
         let Platform { mass, inertia, .. } = robot.platform;
@@ -259,10 +275,7 @@ impl Answer {
         let (counted, below) = (self.counted, self.complete_below_hz);
         print_sentence(&format!("{heading}: {counted} natural motions up to {below:.4} Hz."));
         if let Some(Swinging { frequency_hz, platform_share }) = &self.platform {
-            let share = decimal(100.0 * platform_share, 1);
-            println!(
-                "The platform swings at {frequency_hz:.4} Hz, with {share} % of the energy of that motion."
-            );
+            print_sentence(&format!("{}.", swinging(*frequency_hz, *platform_share)));
         }
         let names = ["frequency [Hz]", "platform [%]", "cables [%]", "moves most", "within"];
         let mut rows = table(&names);

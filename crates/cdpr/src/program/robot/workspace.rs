@@ -10,6 +10,7 @@ use crate::program::arguments::{
 };
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, Ending, drawn, patiently, print_sentence, progress, table};
+use crate::program::pose::modes::OWN;
 use crate::program::questions;
 use crate::program::robot::workspace::ranges::{print_details, ranges};
 use crate::program::said::missing_frequencies;
@@ -279,6 +280,16 @@ fn print(summary: &WorkspaceSummary) {
     }
     if rows.row_count() > 0 {
         println!("{rows}");
+    }
+    let shares = || summary.rows.iter().filter_map(|row| row.platform_share);
+    let shared = shares().filter(|share| *share < OWN).count();
+    if shared > 0 {
+        print_sentence(&format!(
+            "At {shared} of {} positions the platform swings in many motions of the cables, and its frequency is that \
+             of the one that has most of it: `platform_share` is down to {} % there.",
+            shares().count(),
+            significant(100.0 * shares().fold(1.0, f64::min), 2)
+        ));
     }
     if let Some(shaking) = &summary.shaking {
         print_sentence(&format!("Amplitudes from {}.", shaking.conditions()));
