@@ -92,7 +92,7 @@ impl Midpoint {
         self.time += h;
         self.work.steps += 1;
         self.work.evaluations += 1;
-        let kinetic = system.energies(&self.at, &self.stage)[0];
+        let kinetic = system.kinetic(&self.at, &self.stage);
         system.hurry(&mut self.at, &self.stage);
         let [given, lost] = system.powers(&self.at, &self.stage).map(|power| h * power);
         system.turn(&mut self.state);
