@@ -240,24 +240,32 @@ impl CableInMotion<'_> {
         }
     }
 
-    /// Energy [J]: kinetic without that of the anchor point's mass, and stored.
-    pub(super) fn energy(&self, at: &Instant, own: [&[f64]; 2], gravity: &Vector3<f64>) -> [f64; 2] {
-        let [mut kinetic, mut stored] = [0.0; 2];
+    /// Kinetic energy without that of the anchor point's mass [J].
+    pub(super) fn kinetic(&self, at: &Instant, own: [&[f64]; 2]) -> f64 {
+        let before_last = at.points.positions.len().saturating_sub(1);
+        let mut twice = 0.0;
+        for (mass, velocity) in at.forces.masses.iter().zip(&at.points.velocities).take(before_last) {
+            twice += mass * velocity.norm_squared();
+        }
+        if let (Start::Led(lead), Some(_)) = (&self.start, &self.mesh) {
+            twice += lead.mass(&self.material) * own[1][0] * own[1][0];
+        }
+        0.5 * twice
+    }
+
+    /// Energy stored by stretch and height [J].
+    pub(super) fn stored(&self, at: &Instant, own: [&[f64]; 2], gravity: &Vector3<f64>) -> f64 {
+        let mut stored = 0.0;
         for (length, pull) in self.lengths_of_pulls(at) {
             stored += length * self.material.energy(pull);
         }
-        let before_last = at.points.positions.len().saturating_sub(1);
-        for (point, mass) in at.forces.masses.iter().enumerate() {
-            stored -= mass * gravity.dot(&at.points.positions[point]);
-            if point < before_last {
-                kinetic += 0.5 * mass * at.points.velocities[point].norm_squared();
-            }
+        for (mass, position) in at.forces.masses.iter().zip(&at.points.positions) {
+            stored -= mass * gravity.dot(position);
         }
         if let (Start::Led(lead), Some(_)) = (&self.start, &self.mesh) {
             stored += lead.energy(&self.material, own[0][0], own[1][0])[0];
-            kinetic += 0.5 * lead.mass(&self.material) * own[1][0] * own[1][0];
         }
-        [kinetic, stored]
+        stored
     }
 
     /// Power [W] of the winch, and power lost.

@@ -198,7 +198,7 @@ impl Mesh {
     ) -> bool {
         /// Greatest error of a tension, relative to it, of points that are on the static shape. At the rest
         /// of the discrete cable, which begins the motion, the error is smaller by orders.
-        const ERROR: f64 = 0.1;
+        const ERROR: f64 = 0.3;
         let (shares, degree) = (self.shares(), self.rule.degree);
         let mut forces = Forces::default();
         self.forces(material, (length, 0.0), points, &mut forces);

@@ -62,6 +62,8 @@ const MOST_ITERATIONS: usize = 6;
 const MOST_LINEARIZATIONS: usize = 2;
 /// Newton's method ends at this share of the error that is accepted.
 const NEWTON_TOLERANCE: f64 = 0.01;
+/// Newton's method is taken to converge as fast as in the last step, with this power for each step in between.
+const FORGETTING: f64 = 0.8;
 const LEAST_FACTOR: f64 = 0.2;
 const GREATEST_FACTOR: f64 = 8.0;
 /// Shortest step, relative to the time that a solution has run [s].
@@ -76,9 +78,13 @@ pub(super) struct Radau<S: Equations> {
     slopes: Vec<f64>,
     newton: Option<Newton<S::Linearization>>,
     is_current: bool,
-    memory: S::Memory,
+    /// How fast the last Newton's method converged: the share of its last step that was left.
+    left: f64,
+    /// What the last evaluations at the stages left; that of the third is at the state.
+    pub(super) memories: [S::Memory; 3],
     /// The last step [s], its stages and its error.
     last: Option<(f64, [Vec<f64>; 3], f64)>,
+    room: Room,
     pub(super) work: Work,
 }
 
@@ -101,6 +107,16 @@ type Stages = [Vec<f64>; 3];
 /// The step [s] and the factors of its two matrices.
 type Factors<L> = (f64, <L as Linearization>::Factors<f64>, <L as Linearization>::Factors<Complex<f64>>);
 
+/// What iterations write over.
+#[derive(Default)]
+struct Room {
+    state: Vec<f64>,
+    slopes: Stages,
+    transformed: Stages,
+    right: Vec<f64>,
+    complex: Vec<Complex<f64>>,
+}
+
 struct Newton<L: Linearization> {
     at: L,
     factors: Option<Factors<L>>,
@@ -109,7 +125,7 @@ struct Newton<L: Linearization> {
 /// A step that was accepted: its length [s] and the states of its three stages.
 pub(super) struct Step {
     pub(super) length: f64,
-    pub(super) stages: [(f64, Vec<f64>); 3],
+    pub(super) stages: Stages,
 }
 
 /// No step is short enough.
@@ -117,10 +133,11 @@ pub(super) struct Stalled;
 
 impl<S: Equations> Radau<S> {
     pub(super) fn new(equations: &S, time: f64, state: Vec<f64>, step: f64) -> Self {
-        let (mut memory, mut slopes) = (S::Memory::default(), vec![0.0; state.len()]);
-        equations.slopes(time, &state, &mut memory, &mut slopes);
+        let (mut memories, mut slopes): ([S::Memory; 3], _) = (Default::default(), vec![0.0; state.len()]);
+        equations.slopes(time, &state, &mut memories[2], &mut slopes);
         let work = Work { evaluations: 1, ..Work::default() };
-        Self { time, state, step, slopes, newton: None, is_current: false, memory, last: None, work }
+        let (newton, last, room) = (None, None, Room::default());
+        Self { time, state, step, slopes, newton, is_current: false, left: 1.0, memories, last, room, work }
     }
 
     /// One step, not beyond `until` [s].
@@ -175,22 +192,19 @@ impl<S: Equations> Radau<S> {
             self.newton = (!renew).then_some(newton);
             self.is_current = false;
             if renew || !(0.9..=1.2).contains(&factor) {
-                // A step that Newton's method hardly managed is not followed by a longer one.
-                self.step = h * factor.min(if has_failed { 1.0 } else { GREATEST_FACTOR });
+                // A step that was tried again is not followed by a longer one.
+                self.step = h * factor.min(if has_failed || was_rejected { 1.0 } else { GREATEST_FACTOR });
             }
             return Ok(self.accept(equations, h, stages, error));
         }
     }
 
-    fn accept(&mut self, equations: &S, h: f64, stages: [Vec<f64>; 3], error: f64) -> Step {
-        let at = |k: usize| {
-            let state = self.state.iter().zip(&stages[k]).map(|(y, z)| y + z).collect();
-            (self.time + C[k] * h, state)
-        };
+    fn accept(&mut self, equations: &S, h: f64, stages: Stages, error: f64) -> Step {
+        let at = |k: usize| self.state.iter().zip(&stages[k]).map(|(y, z)| y + z).collect();
         let step = Step { length: h, stages: [at(0), at(1), at(2)] };
         self.time += h;
-        self.state.clone_from(&step.stages[2].1);
-        equations.slopes(self.time, &self.state, &mut self.memory, &mut self.slopes);
+        self.state.clone_from(&step.stages[2]);
+        equations.slopes(self.time, &self.state, &mut self.memories[2], &mut self.slopes);
         self.last = Some((h, stages, error));
         self.work.steps += 1;
         self.work.evaluations += 1;
@@ -223,49 +237,59 @@ impl<S: Equations> Radau<S> {
     ) -> Result<(Stages, usize, f64), Option<Stages>> {
         let (n, scale) = (self.state.len(), equations.scale());
         let Some((_, real, complex)) = &newton.factors else { return Err(None) };
-        let mut w = combined(&TI, &z);
+        let mut w = Stages::default();
+        combine(&TI, &z, &mut w);
         let (mut before, mut rate) = (None, 0.0_f64);
-        let (mut state, mut slopes) = (vec![0.0; n], [0; 3].map(|_| vec![0.0; n]));
+        let Room { state, slopes, transformed, right, complex: both } = &mut self.room;
+        for slopes in slopes.iter_mut() {
+            slopes.resize(n, 0.0);
+        }
         for iteration in 1..=MOST_ITERATIONS {
             for k in 0..3 {
-                state.iter_mut().zip(&self.state).zip(&z[k]).for_each(|((sum, y), z)| *sum = y + z);
-                equations.slopes(self.time + C[k] * h, &state, &mut self.memory, &mut slopes[k]);
+                state.clear();
+                state.extend(self.state.iter().zip(&z[k]).map(|(y, z)| y + z));
+                let time = self.time + C[k] * h;
+                equations.slopes(time, state, &mut self.memories[k], &mut slopes[k]);
             }
             self.work.evaluations += 3;
             if slopes.iter().flatten().any(|slope| !slope.is_finite()) {
                 return Err(None);
             }
-            let slopes = combined(&TI, &slopes);
-            let right: Vec<f64> = (0..n).map(|i| slopes[0][i] - REAL / h * w[0][i]).collect();
-            let first = newton.at.solve(real, &right);
-            let right: Vec<Complex<f64>> = (0..n)
-                .map(|i| {
-                    Complex::new(slopes[1][i], slopes[2][i]) - COMPLEX / h * Complex::new(w[1][i], w[2][i])
-                })
-                .collect();
-            let others = newton.at.solve(complex, &right);
-            let steps = (0..n).map(|i| (first[i] / scale[i], others[i] / scale[i]));
-            let square: f64 = steps.map(|(one, other)| one * one + other.norm_sqr()).sum();
-            let norm = (square / (3 * n) as f64).sqrt();
+            combine(&TI, slopes, transformed);
+            let [first, second, third] = &*transformed;
+            right.clear();
+            right.extend(first.iter().zip(&w[0]).map(|(slope, w)| slope - REAL / h * w));
+            let by = COMPLEX / h;
+            both.clear();
+            both.extend((0..n).map(|i| Complex::new(second[i], third[i]) - by * Complex::new(w[1][i], w[2][i])));
+            let first = newton.at.solve(real, right);
+            let others = newton.at.solve(complex, both);
+            let mut square = 0.0;
             for i in 0..n {
+                let share = 1.0 / scale[i];
+                square += share * share * (first[i] * first[i] + others[i].norm_sqr());
                 w[0][i] += first[i];
                 w[1][i] += others[i].re;
                 w[2][i] += others[i].im;
             }
-            z = combined(&T, &w);
+            let norm = (square / (3 * n) as f64).sqrt();
+            combine(&T, &w, &mut z);
             if let Some(before) = before {
                 rate = norm / before;
-                let left = (MOST_ITERATIONS - iteration) as i32;
+                let more = (MOST_ITERATIONS - iteration) as i32;
                 if rate.is_nan()
                     || rate >= 1.0
-                    || f64::powi(rate, left) / (1.0 - rate) * norm > NEWTON_TOLERANCE
+                    || f64::powi(rate, more) / (1.0 - rate) * norm > NEWTON_TOLERANCE
                 {
                     return Err(norm.is_finite().then_some(z));
                 }
+                self.left = rate / (1.0 - rate);
             } else if !norm.is_finite() {
                 return Err(None);
+            } else {
+                self.left = self.left.max(f64::EPSILON).powf(FORGETTING);
             }
-            if norm == 0.0 || (before.is_some() && rate / (1.0 - rate) * norm < NEWTON_TOLERANCE) {
+            if self.left * norm < NEWTON_TOLERANCE {
                 return Ok((z, iteration, rate));
             }
             before = Some(norm);
@@ -310,7 +334,7 @@ impl<S: Equations> Radau<S> {
         if again {
             let state: Vec<f64> = self.state.iter().zip(&error).map(|(y, e)| y + e).collect();
             let mut slopes = vec![0.0; n];
-            equations.slopes(self.time, &state, &mut self.memory, &mut slopes);
+            equations.slopes(self.time, &state, &mut self.memories[2], &mut slopes);
             self.work.evaluations += 1;
             let right: Vec<f64> = (0..n).map(|i| slopes[i] + sum(i)).collect();
             error = newton.at.solve(real, &right);
@@ -330,9 +354,11 @@ impl<S: Equations> Radau<S> {
     }
 }
 
-fn combined(matrix: &[[f64; 3]; 3], parts: &[Vec<f64>; 3]) -> [Vec<f64>; 3] {
-    std::array::from_fn(|row| {
-        let [a, b, c] = matrix[row];
-        (0..parts[0].len()).map(|i| a * parts[0][i] + b * parts[1][i] + c * parts[2][i]).collect()
-    })
+/// Linear combinations of three vectors.
+fn combine(matrix: &[[f64; 3]; 3], parts: &Stages, sums: &mut Stages) {
+    let [one, two, three] = parts;
+    for (sum, [a, b, c]) in sums.iter_mut().zip(matrix) {
+        sum.clear();
+        sum.extend(one.iter().zip(two).zip(three).map(|((one, two), three)| a * one + b * two + c * three));
+    }
 }

@@ -180,7 +180,7 @@ impl Run<'_> {
 
     fn energy(&self) -> f64 {
         let at = self.solver.snapshot(&self.system);
-        self.system.energies(&at, self.solver.state()).iter().sum()
+        self.system.energy(&at, self.solver.state())
     }
 
     fn until(&mut self, time: f64) -> Result<(), DynamicsError> {
@@ -203,8 +203,8 @@ impl Run<'_> {
     /// Keeps the greatest tensions, and how far the platform is from its rest.
     fn watch(&mut self) {
         let time = self.solver.time();
-        let at = self.solver.last_snapshot(&self.system);
-        for (index, ends, is_slack) in self.system.tensions(&at) {
+        let at = self.solver.last_snapshot();
+        for (index, ends, is_slack) in self.system.tensions(at) {
             let [exit, anchor] = ends;
             let peak = &mut self.series.peaks[index];
             if exit.max(anchor) > peak.0 {

@@ -3,7 +3,6 @@
 use super::midpoint::{Midpoint, Spent};
 use super::radau::{Radau, Stalled, WEIGHTS, Work};
 use super::system::{Snapshot, System};
-use std::borrow::Cow;
 
 /// First step after a change [s].
 const FIRST_STEP: f64 = 1e-5;
@@ -61,10 +60,10 @@ impl<'a> Solver<'a> {
     }
 
     /// The system now, or within the last step.
-    pub(super) fn last_snapshot(&self, system: &System) -> Cow<'_, Snapshot> {
+    pub(super) fn last_snapshot(&self) -> &Snapshot {
         match self {
-            Self::Implicit(_) => Cow::Owned(self.snapshot(system)),
-            Self::Midpoint(midpoint) => Cow::Borrowed(&midpoint.at),
+            Self::Implicit(radau) => &radau.memories[2],
+            Self::Midpoint(midpoint) => &midpoint.at,
         }
     }
 
@@ -76,13 +75,12 @@ impl<'a> Solver<'a> {
         };
         let step = radau.advance(system, until)?;
         let mut spent = Spent::default();
-        let mut at = Snapshot::default();
-        for (weight, (time, state)) in WEIGHTS.iter().zip(&step.stages) {
-            system.look(*time, state, &mut at);
-            let [given, lost] = system.powers(&at, state);
+        // Snapshots of the stages are those of the last iteration.
+        for ((weight, state), at) in WEIGHTS.iter().zip(&step.stages).zip(&radau.memories) {
+            let [given, lost] = system.powers(at, state);
             spent.given += weight * step.length * given;
             spent.lost += weight * step.length * lost;
-            spent.kinetic = spent.kinetic.max(system.energies(&at, state)[0]);
+            spent.kinetic = spent.kinetic.max(system.kinetic(at, state));
         }
         system.turn(&mut radau.state);
         Ok(spent)

@@ -174,16 +174,25 @@ impl System<'_> {
         instant
     }
 
-    /// Kinetic energy, and energy stored in cables and by height [J].
-    pub(super) fn energies(&self, at: &Snapshot, state: &[f64]) -> [f64; 2] {
-        let (frame, v) = (&at.frame, state.len() / 2);
+    /// Kinetic energy [J].
+    pub(super) fn kinetic(&self, at: &Snapshot, state: &[f64]) -> f64 {
+        let v = state.len() / 2;
         let motion = Vector6::from_column_slice(&state[v..v + 6]);
-        let center = frame.position + frame.rotation * self.body.center;
-        let own = [0.5 * motion.dot(&(at.mass * motion)), -self.body.mass * self.gravity.dot(&center)];
-        self.cables.iter().zip(&at.cables).fold(own, |[kinetic, stored], (cable, (_, at))| {
-            let more = cable.energy(at, self.own(cable, state), &self.gravity);
-            [kinetic + more[0], stored + more[1]]
-        })
+        let mut kinetic = 0.5 * motion.dot(&(at.mass * motion));
+        for (cable, (_, at)) in self.cables.iter().zip(&at.cables) {
+            kinetic += cable.kinetic(at, self.own(cable, state));
+        }
+        kinetic
+    }
+
+    /// Kinetic energy, and energy stored in cables and by height [J].
+    pub(super) fn energy(&self, at: &Snapshot, state: &[f64]) -> f64 {
+        let center = at.frame.position + at.frame.rotation * self.body.center;
+        let mut energy = self.kinetic(at, state) - self.body.mass * self.gravity.dot(&center);
+        for (cable, (_, at)) in self.cables.iter().zip(&at.cables) {
+            energy += cable.stored(at, self.own(cable, state), &self.gravity);
+        }
+        energy
     }
 
     /// Power of winches and forces, and power lost in the cables [W].
