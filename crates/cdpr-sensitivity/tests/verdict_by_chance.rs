@@ -98,3 +98,58 @@ fn levels_that_take_turns_are_no_sequence() {
     assert!(!concerns(&found, Concern::Sequence) && concerns(&found, Concern::DependentInputs), "{found:?}");
     assert!(found.certain.is_empty(), "{found:?}");
 }
+
+/// The slow factor of a design in standard order and a drift are the same to any table.
+#[test]
+fn a_drift_over_a_design_in_standard_order_is_no_certain_effect() {
+    let design = |slow: fn(usize) -> usize, effect: f64, seed: u64| {
+        let noise = Source::new(seed).uniforms(40);
+        let factor = |of: fn(usize) -> usize| (0..40).map(|row| of(row) as f64).collect::<Vec<f64>>();
+        let columns = vec![factor(slow), factor(|row| row % 5)];
+        let y = (0..40).map(|row| 3.0 * row as f64 / 39.0 + noise[row] + effect * (row % 5) as f64).collect();
+        Analyser::new(seed).verdict(&table(columns, y)).unwrap()
+    };
+    // In standard order, and in blocks of a random order.
+    let orders: [fn(usize) -> usize; 2] = [|row| row / 5, |row| [3, 0, 5, 7, 1, 4, 6, 2][row / 5]];
+    for slow in orders {
+        for seed in 0..6 {
+            let found = design(slow, 0.0, seed);
+            assert!(found.certain.is_empty(), "{found:?}");
+            assert!(found.related.iter().any(|of| of.input == "x1"), "{found:?}");
+            assert!(concerns(&found, Concern::RowsInOrder), "{found:?}");
+        }
+        // A factor whose levels change from row to row stays certain.
+        let found = design(slow, 2.0, 1);
+        assert_eq!(found.certain.iter().map(|of| of.input.as_str()).collect::<Vec<_>>(), ["x2"], "{found:?}");
+    }
+}
+
+/// 40 settings, those of a large x1 measured forty times; the output is noise, or that of each setting.
+#[test]
+fn many_rows_of_few_settings_are_those_settings() {
+    for of_setting in [false, true] {
+        let wrong = (0..TABLES).into_par_iter().filter(|seed| {
+            let mut source = Source::new(800 + seed);
+            let [one, two, own] = [(); 3].map(|()| source.uniforms(40));
+            let rows = (0..40).flat_map(|k| std::iter::repeat_n(k, if one[k] > 0.5 { 40 } else { 1 }));
+            let rows: Vec<usize> = rows.collect();
+            let columns = [&one, &two].map(|column| rows.iter().map(|row| column[*row]).collect()).to_vec();
+            let noise = source.uniforms(rows.len());
+            let y =
+                rows.iter().zip(noise).map(|(row, noise)| if of_setting { own[*row] } else { 0.0 } + noise);
+            let found = Analyser::new(*seed).verdict(&table(columns, y.collect())).unwrap();
+            assert!(concerns(&found, Concern::RepeatedRows) && found.rows == 40, "{found:?}");
+            !found.certain.is_empty()
+        });
+        let wrong = wrong.count();
+        assert!(wrong <= 5, "{wrong} of {TABLES} tables");
+    }
+    // The levels of a factor are no settings: its rows count.
+    let mut source = Source::new(3);
+    let noise = source.uniforms(80);
+    let columns = [1, 2, 4].map(|of| (0..80).map(|row| f64::from((row / of) as u8 % 2)).collect::<Vec<_>>());
+    let product = columns[0].iter().zip(&columns[1]).map(|(a, b)| f64::from(a != b)).collect();
+    let y = columns[0].iter().zip(noise).map(|(a, noise)| a + noise).collect();
+    let found = Analyser::new(1).verdict(&table([&columns[..], &[product]].concat(), y)).unwrap();
+    assert!(found.rows == 80 && !concerns(&found, Concern::RepeatedRows), "{found:?}");
+}

@@ -2,28 +2,15 @@
 //! what they seem to be.
 //!
 //! - **Repeated rows.** Rows count once if more of them repeat an earlier one than where each column is dealt
-//!   to the rows at random. Rows of equal inputs and different outputs are one *unit* with their mean output.
-//! - **Rows in an order.** With the correlations `r_k` of the ranks of a column k rows apart,
-//!
-//! ```text
-//! Q = n (n + 2) Σ r_k² / (n - k),   k = 1 .. min(10, n / 5),   χ² without an order     (Cd1)
-//! ```
-//!
-//!   G. M. Ljung, G. E. P. Box, *On a measure of lack of fit in time series models*, Biometrika 65 (1978).
-//!   Dealing outputs to the rows at random is a fair comparison unless both an input and the output have an
-//!   order. Rows of a sequence of low discrepancy have one that makes the tests stricter; those of a design of
-//!   balanced levels have one that does no harm if the output has none beyond its levels.
+//!   to the rows at random, or if they are few settings of many rows each. Rows of equal inputs and different outputs are one *unit* with their mean output.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::design::observation::Observed;
 use crate::given::data::Kind;
-use crate::given::levels::codes;
-use crate::measure::regression::{ranks, standardized};
 use crate::sample::random::stream;
 
 /// What a condition is about.
@@ -84,8 +71,10 @@ fn units(columns: &[&[f64]]) -> (Vec<usize>, usize) {
     (units, known.len())
 }
 
-/// The units, if rows repeat more often than by chance.
-fn repeated(columns: &[&[f64]], seed: u64) -> Option<(Vec<usize>, usize)> {
+/// The units, if rows repeat more often than by chance, or if they are less than half as many as by chance and a
+/// column of numbers has another value in most of them: few settings with many rows of each. The levels of a
+/// design are other than that: each has rows of several units.
+fn repeated(columns: &[&[f64]], kinds: &[Kind], seed: u64) -> Option<(Vec<usize>, usize)> {
     let (of_rows, count) = units(columns);
     let n = of_rows.len();
     if count == n {
@@ -97,18 +86,24 @@ fn repeated(columns: &[&[f64]], seed: u64) -> Option<(Vec<usize>, usize)> {
         dealt
     };
     let dealt: Vec<Vec<f64>> = columns.iter().enumerate().map(dealt).collect();
-    let by_chance = n - units(&dealt.iter().map(Vec::as_slice).collect::<Vec<_>>()).1;
-    (n - count > 2 * by_chance).then_some((of_rows, count))
+    let by_chance = units(&dealt.iter().map(Vec::as_slice).collect::<Vec<_>>()).1;
+    let names_units = |(column, kind): (&&[f64], &Kind)| {
+        let values = column.iter().map(|value| value.to_bits()).collect::<HashSet<_>>().len();
+        *kind == Kind::Numbers && 4 * values >= 3 * count
+    };
+    let few = || 2 * count <= by_chance && columns.iter().zip(kinds).any(names_units);
+    (n - count > 2 * (n - by_chance) || few()).then_some((of_rows, count))
 }
 
 /// The rows that repeat none before them, in inputs and output, if others do.
 ///
 /// In a table of few levels only, rows repeat by the nature of their values: at least one column must have
 /// values that mostly occur once.
-pub(crate) fn distinct(observed: &Observed, seed: u64) -> Option<Observed> {
+pub(crate) fn distinct(observed: &Observed, kinds: &[Kind], seed: u64) -> Option<Observed> {
     let columns: Vec<&[f64]> =
         observed.columns.iter().chain([&observed.outputs]).map(Vec::as_slice).collect();
-    let (units, count) = repeated(&columns, seed)?;
+    let kinds = [kinds, &[Kind::Numbers]].concat();
+    let (units, count) = repeated(&columns, &kinds, seed)?;
     let mut first = vec![usize::MAX; count];
     units.iter().enumerate().for_each(|(row, &unit)| first[unit] = first[unit].min(row));
     let select = |values: &[f64]| -> Vec<f64> { first.iter().map(|&row| values[row]).collect() };
@@ -128,9 +123,9 @@ pub(crate) fn distinct(observed: &Observed, seed: u64) -> Option<Observed> {
 /// One row for all of equal inputs, with their mean output, if these repeat more often than by chance. The mean
 /// is that of equally many rows of each, the first ones: means of more rows scatter less, and how often inputs
 /// repeat may depend on them.
-pub(crate) fn clusters(observed: &Observed, seed: u64) -> Option<Observed> {
+pub(crate) fn clusters(observed: &Observed, kinds: &[Kind], seed: u64) -> Option<Observed> {
     let columns: Vec<&[f64]> = observed.columns.iter().map(Vec::as_slice).collect();
-    let (units, count) = if columns.is_empty() { None } else { repeated(&columns, seed) }?;
+    let (units, count) = if columns.is_empty() { None } else { repeated(&columns, kinds, seed) }?;
     let mut sums = vec![(0.0, 0.0); count];
     let mut first = vec![usize::MAX; count];
     let mut sizes = vec![0_usize; count];
@@ -147,116 +142,6 @@ pub(crate) fn clusters(observed: &Observed, seed: u64) -> Option<Observed> {
         outputs: sums.into_iter().map(|(rows, sum)| sum / rows).collect(),
         failed: observed.failed,
     })
-}
-
-/// Level of the test of an order.
-const ORDERED: f64 = 0.01;
-
-/// Whether each input and the output have an order together, which an accident can make alike; that of the
-/// coordinates of a sequence makes tests stricter.
-pub(crate) fn in_order(observed: &Observed, kinds: &[Kind], coordinate: &[bool], seed: u64) -> Vec<bool> {
-    let has_none = || coordinate.iter().all(|is| *is) || !has_order(&observed.outputs);
-    if has_none() || is_balanced(observed, seed) {
-        return vec![false; kinds.len()];
-    }
-    let of_input = |(column, kind): (&Vec<f64>, &Kind)| match kind {
-        Kind::Numbers => has_order(column),
-        Kind::Levels => {
-            let (codes, count) = codes(column);
-            let of_level =
-                |level| order_p(&codes.iter().map(|&code| f64::from(code == level)).collect::<Vec<_>>());
-            (0..count).any(|level| of_level(level) * (count as f64) < ORDERED)
-        }
-    };
-    let all = observed.columns.iter().zip(kinds).zip(coordinate);
-    all.map(|(column, coordinate)| !coordinate && of_input(column)).collect()
-}
-
-fn has_order(values: &[f64]) -> bool {
-    order_p(values) < ORDERED
-}
-
-/// p of (Cd1).
-fn order_p(values: &[f64]) -> f64 {
-    let n = values.len();
-    let lags = 10.min(n / 5);
-    let Some(scores) = standardized(ranks(values)).filter(|_| lags > 0) else { return 1.0 };
-    let r = |lag: usize| {
-        scores.iter().zip(&scores[lag..]).map(|(one, other)| one * other).sum::<f64>() / (n as f64 - 1.0)
-    };
-    let sum: f64 = (1..=lags).map(|lag| r(lag).powi(2) / (n - lag) as f64).sum();
-    let statistic = n as f64 * (n as f64 + 2.0) * sum;
-    ChiSquared::new(lags as f64).map_or(1.0, |law| law.sf(statistic))
-}
-
-/// Whether the inputs are the factors of a design, each pair of levels as often as by their own numbers, and
-/// the output has no order beyond the means of their levels and of pairs of these.
-fn is_balanced(observed: &Observed, seed: u64) -> bool {
-    const MOST_LEVELS: usize = 10;
-    const MOST_FACTORS: usize = 30;
-    let n = observed.outputs.len();
-    if observed.columns.len() > MOST_FACTORS {
-        return false;
-    }
-    let factors: Vec<(Vec<usize>, usize)> = observed.columns.iter().map(|column| codes(column)).collect();
-    if factors.iter().any(|(_, count)| *count > MOST_LEVELS) {
-        return false;
-    }
-    let cells = |one: usize, other: usize| -> (Vec<usize>, usize) {
-        let count = factors[other].1;
-        let cell = |(a, b): (&usize, &usize)| a * count + b;
-        (factors[one].0.iter().zip(&factors[other].0).map(cell).collect(), factors[one].1 * count)
-    };
-    let sizes = |(of_rows, count): &(Vec<usize>, usize)| {
-        let mut sizes = vec![0_usize; *count];
-        of_rows.iter().for_each(|&level| sizes[level] += 1);
-        sizes
-    };
-    let pairs: Vec<[usize; 2]> =
-        (0..factors.len()).flat_map(|one| (one + 1..factors.len()).map(move |other| [one, other])).collect();
-    let balanced = |&[one, other]: &[usize; 2]| {
-        let [of_one, of_other] = [one, other].map(|factor| sizes(&factors[factor]));
-        let together = sizes(&cells(one, other));
-        (0..together.len())
-            .all(|cell| together[cell] * n == of_one[cell / of_other.len()] * of_other[cell % of_other.len()])
-    };
-    if !pairs.iter().all(balanced) {
-        return false;
-    }
-    let mut removed = factors.clone();
-    let mut freedoms = factors.iter().map(|(_, count)| count - 1).sum::<usize>();
-    for &[one, other] in &pairs {
-        freedoms += (factors[one].1 - 1) * (factors[other].1 - 1);
-        if 4 * freedoms <= 3 * n {
-            removed.push(cells(one, other));
-        }
-    }
-    !rest_has_order(&observed.outputs, &removed, seed)
-}
-
-/// Whether what means of groups of rows leave of the outputs has an order: more of it than all but one of 199
-/// deals of the outputs to the rows.
-fn rest_has_order(outputs: &[f64], removed: &[(Vec<usize>, usize)], seed: u64) -> bool {
-    const DEALS: u64 = 199;
-    let rest = |mut values: Vec<f64>| {
-        for (of_rows, count) in removed {
-            let mut sums = vec![(0.0, 0.0); *count];
-            of_rows.iter().zip(&values).for_each(|(&g, v)| sums[g] = (sums[g].0 + 1.0, sums[g].1 + v));
-            of_rows.iter().zip(&mut values).for_each(|(&g, v)| *v -= sums[g].1 / sums[g].0);
-        }
-        // What is left of an output that its factors decide is rounding.
-        let rounding = 1e-9 * values.len() as f64;
-        values.iter_mut().filter(|v| v.abs() < rounding).for_each(|v| *v = 0.0);
-        order_p(&values)
-    };
-    let values = ranks(outputs);
-    let found = rest(values.clone());
-    let dealt = |deal: u64| {
-        let mut values = values.clone();
-        values.shuffle(&mut stream(seed, deal));
-        rest(values)
-    };
-    found < 1.0 && (0..DEALS).filter(|&deal| dealt(deal) <= found).count() <= 1
 }
 
 /// What may be wrong with an input, or with the output if it has no name.

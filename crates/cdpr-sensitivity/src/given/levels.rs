@@ -6,17 +6,19 @@
 //! S = 1 - θ,   θ = Σ (y_i - y_l(i))² / ((n - m) V)                                   (Le1)
 //! u_i = (y_i - y_l(i))² n / (n - m) - θ (y_i - ȳ)²                                   (Le2)
 //! Var θ = Σ u_i² / (n (n - m) V²) + 2 (m - 1) θ² / n²                                (Le3)
+//! f = (n - m) min(1, 3 n* / n),   n* = (Σ (y - ȳ)²)² / Σ (y - ȳ)⁴                    (Le4)
 //! ```
 //!
 //! (Le1) is the correlation ratio, corrected for chance: 0 in the mean without an effect (T. L. Kelley, *An
 //! unbiased correlation ratio measure*, Proc. Natl. Acad. Sci. 21, 1935). (Le3) is its variance to the first
-//! order and, without an effect, that of a quotient of χ². The interval is that of (Ra6) of
-//! [`rank`](crate::given::rank) with n - m degrees of freedom.
+//! order and, without an effect, that of a quotient of χ². The interval is (CI7) of
+//! [`interval`](crate::sample::interval), with (Le3) at each θ and f degrees of freedom: fewer where few rows
+//! decide the variance.
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::SensitivityError;
-use crate::sample::interval::Estimate;
+use crate::sample::interval::{Estimate, effective};
 use crate::sample::summary::Spread;
 
 /// The outputs at one level of an input.
@@ -79,11 +81,15 @@ pub(crate) fn share(column: &[f64], outputs: &[f64], level: f64) -> Result<Estim
     let within = |(&code, y): (&usize, &f64)| (y - means[code].1).powi(2);
     let squares: Vec<f64> = codes.iter().zip(outputs).map(within).collect();
     let noise = squares.iter().sum::<f64>() / (freedoms * variance);
-    let term = |(square, y): (&f64, &f64)| square * n / freedoms - noise * (y - spread.mean).powi(2);
-    let terms: f64 = squares.iter().zip(outputs).map(term).map(|u| (u / variance).powi(2)).sum();
-    let of_noise = terms / (n * freedoms) + 2.0 * (m as f64 - 1.0) * (noise / n).powi(2);
-    let estimate = Estimate::of_variance(1.0 - noise, of_noise, freedoms, level)?;
-    let half = estimate.high - estimate.value;
-    let low = if noise > 0.0 { 1.0 - noise * (half / noise).exp() } else { estimate.low };
-    Ok(Estimate { low, ..estimate })
+    let squared: Vec<f64> = outputs.iter().map(|y| (y - spread.mean).powi(2)).collect();
+    let sum = |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+    let [own, both, other] = [sum(&squares, &squares), sum(&squares, &squared), sum(&squared, &squared)]
+        .map(|of| of / variance.powi(2));
+    let scale = n / freedoms;
+    let deviation = |noise: f64| {
+        let terms = (scale * scale * own - 2.0 * noise * scale * both + noise * noise * other).max(0.0);
+        (terms / (n * freedoms) + 2.0 * (m as f64 - 1.0) * (noise / n).powi(2)).sqrt()
+    };
+    let freedoms = freedoms * (3.0 * effective(&squared) / n).min(1.0);
+    Estimate::of_rest(noise, deviation, freedoms.max(1.0), level)
 }

@@ -16,9 +16,9 @@ use crate::given::limit::LEAST_FAILING;
 use crate::given::pawn;
 use crate::given::rank;
 use crate::given::verdict::sequence::coordinates;
-use crate::given::verdict::{Doubt, Table, Verdict};
+use crate::given::verdict::{Doubt, Table, Verdict, listed};
 use crate::measure::regression::{self, Of, ranks, standardized};
-use crate::sample::interval::Estimate;
+use crate::sample::interval::{Estimate, effective};
 use crate::sample::random::{derived_seed, stream};
 use crate::sample::summary::check_varies;
 
@@ -42,16 +42,20 @@ pub(crate) struct Work<'a> {
 impl<'a> Work<'a> {
     pub(crate) fn new(analyser: Analyser, data: &'a GivenData, all: &Observed) -> Self {
         let seed = |part: u64| derived_seed(analyser.seed, part);
-        let distinct = conditions::distinct(all, seed(6));
+        let kinds =
+            |inputs: &[usize]| -> Vec<Kind> { inputs.iter().map(|&input| data.kind(input)).collect() };
+        let distinct =
+            conditions::distinct(all, &kinds(&(0..all.columns.len()).collect::<Vec<_>>()), seed(6));
         let of = distinct.as_ref().unwrap_or(all);
         let varies = |input: &usize| check_varies(&of.columns[*input]).is_ok();
         let varying: Vec<usize> = (0..of.columns.len()).filter(varies).collect();
         let columns = varying.iter().map(|&input| of.columns[input].clone()).collect();
         let rows = Observed { columns, outputs: of.outputs.clone(), failed: of.failed };
-        let units = conditions::clusters(&rows, seed(7)).filter(|of| check_varies(&of.outputs).is_ok());
+        let kinds = kinds(&varying);
+        let units =
+            conditions::clusters(&rows, &kinds, seed(7)).filter(|of| check_varies(&of.outputs).is_ok());
         let observed = units.unwrap_or_else(|| rows.clone());
         let drawn = thinned(&observed, seed(0));
-        let kinds: Vec<Kind> = varying.iter().map(|&input| data.kind(input)).collect();
         let in_turn: Vec<&[f64]> = varying.iter().map(|&input| &data.columns()[input][..]).collect();
         Self {
             analyser,
@@ -105,7 +109,7 @@ impl<'a> Work<'a> {
         let (observed, drawn, level) = (&self.observed, &self.drawn, self.analyser.level);
         let [of_values, of_ranks] = [(Of::Values, "regression"), (Of::Ranks, "rank regression")]
             .map(|(of, label)| notes.unless(label, self.regression(of)));
-        let first = self.first(notes);
+        let first = self.said(self.first(notes), notes);
         let dependence = hsic::of_output(&observed.columns, &self.kinds, &observed.outputs, self.rows());
         let dependence = notes.unless("dependence", dependence);
         let enough_rows = enough(observed, pawn::MIN_ROWS);
@@ -166,6 +170,30 @@ impl<'a> Work<'a> {
             None => None,
         };
         (0..columns.len()).map(of_input).collect()
+    }
+
+    /// The indices whose intervals leave anything out, and a note of the others.
+    fn said(&self, first: Vec<Option<Estimate>>, notes: &mut Notes) -> Vec<Option<Estimate>> {
+        let says = |of: &Option<Estimate>| of.is_some_and(|of| !of.says_nothing());
+        let open: Vec<&str> = self
+            .names
+            .iter()
+            .zip(&first)
+            .filter(|(_, of)| of.is_some() && !says(of))
+            .map(|(name, _)| *name)
+            .collect();
+        if !open.is_empty() {
+            let outputs = &self.observed.outputs;
+            let mean = outputs.iter().sum::<f64>() / outputs.len() as f64;
+            let squares: Vec<f64> = outputs.iter().map(|y| (y - mean).powi(2)).collect();
+            notes.0.push(format!(
+                "first-order indices: {} rows, of which {:.0} decide the variance, leave these open from 0 to 1: {}",
+                outputs.len(),
+                effective(&squares),
+                listed(&open, 8, |name| (*name).to_owned())
+            ));
+        }
+        first.into_iter().map(|of| of.filter(|_| says(&of))).collect()
     }
 
     /// R² and the coefficient of each input of numbers. An input of words has a column for each level but one.

@@ -8,7 +8,7 @@
 //! u_j = d_j - θ ((y_(j) - ȳ)² + (y_(j+1) - ȳ)²) / 2                                      (Ra3)
 //! s² = γ_0 + 2 (γ_1 - (γ_2 + γ_3 + γ_4) / 3),   s² >= γ_0 / 4                            (Ra4)
 //! Var θ = max(s² / (V² (n - 8)), θ² / n)                                                 (Ra5)
-//! 1 - θ exp(h / θ) <= S <= 1 - θ + h,   h = t_(n/8, (1 + level) / 2) √(Var θ)            (Ra6)
+//! f = min(n, 3 n*) / 8,   n* = (Σ (y - ȳ)²)² / Σ (y - ȳ)⁴                                (Ra6)
 //! ```
 //!
 //! - (Ra2): two rows that are neighbours in x have nearly the same conditional mean, so that their difference
@@ -24,10 +24,11 @@
 //!   Chatterjee's rank correlation*, Biometrika 111 (2024).
 //! - (Ra5): with σ²(x) the variance of y given x, n V² Var θ is the variance of
 //!   `(y - E (y | x))² - θ (y - ȳ)²` plus `E σ⁴(x) >= (E σ²(x))² = θ² V²` (Jensen's inequality).
-//!   No estimate is below that; without an effect it is the variance itself. The 8 and Student's factor of
-//!   n / 8 allow for few rows.
-//! - (Ra6): θ is a quotient of variances, whose law is skewed towards large values; its logarithm is less so
-//!   and gives the lower end. The upper end is of the first order, as a logarithm never holds S = 1.
+//!   No estimate is below that; without an effect it is the variance itself.
+//! - The interval is (CI7) of [`interval`](crate::sample::interval), with (Ra5) at each θ. The 8 and Student's
+//!   factor of f degrees of freedom allow for few rows: n / 8 for normal outputs and those of shorter tails.
+//!   `n*` is the number of equally large deviations whose mean square scatters as that of the outputs does
+//!   (Ra6). Where few rows decide the variance, as of a lognormal output, the interval may hold all from 0 to 1.
 //!
 //! `cargo xtask statistics given` counts how often the intervals hold the index.
 //!
@@ -52,7 +53,7 @@ use crate::design::observation::Observed;
 use crate::error::{SensitivityError, check_level, check_range};
 use crate::given::data::GivenData;
 use crate::parallel::*;
-use crate::sample::interval::Estimate;
+use crate::sample::interval::{Estimate, effective};
 use crate::sample::random::stream;
 use crate::sample::summary::Spread;
 
@@ -147,23 +148,40 @@ fn of_sorted(y: &[f64], level: f64) -> Result<Estimate, SensitivityError> {
     let differences: Vec<f64> = y.windows(2).map(|pair| 0.5 * square(pair[1] - pair[0])).collect();
     let ends = 0.5 * (differences[0] + differences[n - 2]);
     let noise = (differences.iter().sum::<f64>() + ends) / (n as f64 * variance);
-    let term = |(pair, difference): (&[f64], &f64)| {
-        let [low, high] = [pair[0] - spread.mean, pair[1] - spread.mean];
-        difference - 0.5 * noise * (low * low + high * high)
-    };
-    let mut terms: Vec<f64> = y.windows(2).zip(&differences).map(term).collect();
-    let mean = terms.iter().sum::<f64>() / terms.len() as f64;
-    terms.iter_mut().for_each(|term| *term -= mean);
-    let covariance = |apart: usize| {
-        terms.iter().zip(&terms[apart..]).map(|(one, other)| one * other).sum::<f64>() / terms.len() as f64
-    };
-    let own = covariance(0);
-    let far = (covariance(2) + covariance(3) + covariance(4)) / 3.0;
-    // Few rows may give a difference below zero.
-    let sum = (own + 2.0 * (covariance(1) - far)).max(0.25 * own) / (variance * variance);
+    let squares: Vec<f64> = y.iter().map(|y| square(y - spread.mean)).collect();
+    let between: Vec<f64> = squares.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
+    let [own, sum] = scatter(&differences, &between);
     let size = n as f64;
-    let variance = (sum / (size - 8.0)).max(noise * noise / size);
-    let estimate = Estimate::of_variance(1.0 - noise, variance, size / 8.0, level)?;
-    let half = estimate.high - estimate.value;
-    Ok(Estimate { low: 1.0 - noise * (half / noise).exp(), ..estimate })
+    let deviation = |noise: f64| {
+        let of = |[one, both, other]: [f64; 3]| one - 2.0 * noise * both + noise * noise * other;
+        // Few rows may give a difference below zero.
+        let terms = of(sum).max(0.25 * of(own)) / (variance * variance);
+        (terms / (size - 8.0)).max(noise * noise / size).sqrt()
+    };
+    let freedoms = size.min(3.0 * effective(&squares)) / 8.0;
+    Estimate::of_rest(noise, deviation, freedoms.max(1.0), level)
+}
+
+/// `γ_0` and s² (Ra4) of `d - θ w` as polynomials in θ: coefficients of 1, -2 θ and θ².
+fn scatter(d: &[f64], w: &[f64]) -> [[f64; 3]; 2] {
+    let count = d.len() as f64;
+    let centred = |values: &[f64]| -> Vec<f64> {
+        let mean = values.iter().sum::<f64>() / count;
+        values.iter().map(|value| value - mean).collect()
+    };
+    let [d, w] = [centred(d), centred(w)];
+    let covariance = |one: &[f64], other: &[f64], apart: usize| {
+        let products = |one: &[f64], other: &[f64]| -> f64 {
+            one.iter().zip(&other[apart..]).map(|(one, other)| one * other).sum()
+        };
+        0.5 * (products(one, other) + products(other, one)) / count
+    };
+    let pairs = [[&d, &d], [&d, &w], [&w, &w]];
+    let own = pairs.map(|[one, other]| covariance(one, other, 0));
+    let sum = pairs.map(|[one, other]| {
+        let [near, far] = [[1].as_slice(), &[2, 3, 4]]
+            .map(|of| of.iter().map(|&k| covariance(one, other, k)).sum::<f64>() / of.len() as f64);
+        covariance(one, other, 0) + 2.0 * (near - far)
+    });
+    [own, sum]
 }

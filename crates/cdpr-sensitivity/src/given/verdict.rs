@@ -16,7 +16,7 @@
 //!
 //! - no other input depends on it (`verdict/dependence.rs`), so that an input that is found for what
 //!   another causes is not certain;
-//! - it and the output have no order together ([`conditions`](crate::given::conditions)).
+//! - it and the output have no order together (`verdict/order.rs`).
 //!
 //! Otherwise it is *related* to the output, with the reasons. Rows that repeat count once.
 //!
@@ -29,6 +29,7 @@
 
 mod dependence;
 mod joint;
+mod order;
 pub(super) mod sequence;
 
 use std::collections::HashSet;
@@ -36,11 +37,12 @@ use std::collections::HashSet;
 use serde::{Deserialize, Serialize};
 
 use crate::design::observation::Observed;
-use crate::given::conditions::{Concern, Condition, in_order};
+use crate::given::conditions::{Concern, Condition};
 use crate::given::data::Kind;
 use crate::given::evidence::{self, MOST_OF_PAIRS, Measure, Test, Tested, Tests};
 use crate::given::hsic::{self, Dependence, Rows};
 use crate::given::verdict::dependence::{FALSE_FINDINGS, Inputs};
+use crate::given::verdict::order::{Order, in_order};
 use crate::sample::random::derived_seed;
 
 /// An input that matters.
@@ -150,9 +152,7 @@ impl Table<'_> {
                     "found no more clearly than the pattern that the sequence has with {names}"
                 ));
             }
-            if in_order[*input] {
-                reasons.push("rows next to each other are alike in it and in the output".to_owned());
-            }
+            reasons.extend(in_order[*input].map(|order| order.reason().to_owned()));
             let name = self.names[*input].to_owned();
             let Test { measure, p_value } = tests[0];
             let list = if reasons.is_empty() { &mut verdict.certain } else { &mut verdict.related };
@@ -229,20 +229,20 @@ impl Table<'_> {
         verdict.conditions.push(Condition { concern: Concern::DependentInputs, inputs, text });
     }
 
-    fn note_order(&self, verdict: &mut Verdict, in_order: &[bool]) {
-        let ordered = (0..self.names.len()).filter(|&input| in_order[input]);
-        let inputs: Vec<String> = ordered.map(|input| self.names[input].to_owned()).collect();
-        if inputs.is_empty() {
-            return;
+    fn note_order(&self, verdict: &mut Verdict, in_order: &[Option<Order>]) {
+        for order in [Order::Alike, Order::Follows] {
+            let ordered = (0..self.names.len()).filter(|&input| in_order[input] == Some(order));
+            let inputs: Vec<String> = ordered.map(|input| self.names[input].to_owned()).collect();
+            if !inputs.is_empty() {
+                let text = order.note().to_owned();
+                verdict.conditions.push(Condition { concern: Concern::RowsInOrder, inputs, text });
+            }
         }
-        let text = "rows next to each other are alike in the output and in inputs: p-values and intervals \
-                    are too small for these";
-        verdict.conditions.push(Condition { concern: Concern::RowsInOrder, inputs, text: text.to_owned() });
     }
 }
 
 /// The first `most` entries in words, and how many more there are.
-fn listed<T>(all: &[T], most: usize, word: impl Fn(&T) -> String) -> String {
+pub(crate) fn listed<T>(all: &[T], most: usize, word: impl Fn(&T) -> String) -> String {
     let words: Vec<String> = all.iter().take(most).map(word).collect();
     match all.len().saturating_sub(most) {
         0 => words.join(", "),

@@ -28,6 +28,17 @@
 //!
 //! Its upper end is above that of (CI2) for the same s*.
 //!
+//! A quotient of two means, such as the part θ of a variance that an input leaves, has a deviation that depends
+//! on its value. Its interval has the values that a test with their own deviation s*(θ0) does not refuse,
+//!
+//! ```text
+//! |θ - θ0| <= t_(f, (1 + level) / 2) s*(θ0),   θ0 >= 0                    (CI7)
+//! ```
+//!
+//! E. C. Fieller, *Some problems in interval estimation*, J. R. Stat. Soc. B 16 (1954). Where few rows decide
+//! the variance, no large θ0 is refused. The interval of `1 - θ` also has those of the first order,
+//! `1 - θ exp(h / θ)` to `1 - θ + h` with `h = t s*(θ)`, and ends at -1.
+//!
 //! If k of n independent values lie below a limit, with B⁻¹ the inverse of the beta distribution function
 //! and `b_q` the inverse of the binomial one,
 //!
@@ -146,6 +157,47 @@ impl Estimate {
         }
         let factor = (half / value).exp();
         Ok(Self { value, low: value / factor, high: value * factor })
+    }
+
+    /// The share `1 - θ` of an estimated θ >= 0, with its interval (CI7) from the deviation s* as a function of
+    /// the true θ.
+    pub(crate) fn of_rest(
+        theta: f64,
+        deviation: impl Fn(f64) -> f64,
+        freedoms: f64,
+        level: f64,
+    ) -> Result<Self, SensitivityError> {
+        /// Largest θ that is looked at.
+        const MOST: f64 = 2.0;
+        let t = student(freedoms, level)?;
+        let is_held = |other: f64| (theta - other).abs() <= t * deviation(other);
+        let end = |mut outside: f64| {
+            let mut inside = theta;
+            if theta == 0.0 {
+                return theta;
+            }
+            if is_held(outside) {
+                return outside;
+            }
+            for _ in 0..60 {
+                let middle = 0.5 * (inside + outside);
+                *(if is_held(middle) { &mut inside } else { &mut outside }) = middle;
+            }
+            inside
+        };
+        let half = t * deviation(theta);
+        let most = theta.max(MOST);
+        let first_order = if theta > 0.0 { theta * (half / theta).exp() } else { half };
+        Ok(Self {
+            value: 1.0 - theta,
+            low: 1.0 - end(most).max(first_order).min(most),
+            high: 1.0 - end(0.0).min(theta - half),
+        })
+    }
+
+    /// Whether an interval of a share holds all that a share can be.
+    pub(crate) fn says_nothing(&self) -> bool {
+        self.low <= 0.0 && self.high >= 1.0
     }
 
     /// The same estimate with an interval that is no shorter than `half` on either side.
