@@ -13,9 +13,13 @@ import math
 import os
 import subprocess
 import sys
+from datetime import date
 
 AGREEMENT = {"mm": 1e-6, "tension": 1e-6}
 PROBLEM, CERES, RESULT = "target/peers/problem.json", "target/peers/ceres", "target/bench-peers.json"
+# The table of docs/PEERS.md.
+PAGE = "data/benchmarks/peers.md"
+HEAD = "| robot | program | direct | ratio | inverse | ratio | observation | ratio | apart | tensions |\n|" + 10 * "---|"
 QUESTIONS = ["direct_us", "inverse_us", "observation_us"]
 SYSTEM = "apt install g++ libceres-dev nlohmann-json3-dev"
 BUILD = ["g++", "-std=c++17", "-O3", "-DNDEBUG", "-I/usr/include/eigen3", "peers/ceres.cpp", "-o", CERES]
@@ -62,7 +66,8 @@ def apart(answer, ours):
 
 
 def table(case, answers):
-    """Prints the table of a case; returns its times and the largest differences."""
+    """Prints the table of a case; returns its times and the largest differences, and its lines for the page."""
+    lines = []
     print(f"\n{case['name']}; tensions on a limit: {json.dumps(case['at_limits'])}")
     heads = ["direct [us]", "ratio", "inverse [us]", "ratio", "observation [us]", "ratio", "apart [mm]", "tensions"]
     print(f"{'program':<8}{'version':<9}{'solver':<37}" + "".join(head.rjust(17) for head in heads))
@@ -81,7 +86,17 @@ def table(case, answers):
             times[question].setdefault(name, time)
         cells += [f"{found[what]:.1e}" for what in found]
         print(f"{name:<8}{program['version']:<9}{program['solver']:<37}" + "".join(cell.rjust(17) for cell in cells))
-    return {"name": case["name"], **times, **{f"agreement_{what}": largest[what] for what in largest}}
+        lines.append("| " + " | ".join([case["name"], f"{name} {program['version']} {program['solver']}", *cells]) + " |")
+    return {"name": case["name"], **times, **{f"agreement_{what}": largest[what] for what in largest}}, lines
+
+
+def machine():
+    """The date, the commit and the processor of a run."""
+    commit = (output(["git", "rev-parse", "--short", "HEAD"]) or "unknown").strip()
+    with open("/proc/cpuinfo") as file:
+        names = [line.split(": ")[1].strip() for line in file if line.startswith("model name")]
+    load = os.getloadavg()[0]
+    return f"{date.today()}, {commit}, {names[0] if names else 'unknown'}, {os.cpu_count()} cores, load average {load:.2f}"
 
 
 def main(python):
@@ -98,11 +113,14 @@ def main(python):
         if text is None:
             raise SystemExit(f"{name} has failed")
         answers.append((name, json.loads(text)))
-    results = [table(case, [(name, of, of["cases"][i]) for name, of in answers]) for i, case in enumerate(cases)]
+    tables = [table(case, [(name, of, of["cases"][i]) for name, of in answers]) for i, case in enumerate(cases)]
+    results = [result for result, _ in tables]
+    with open(PAGE, "w") as file:
+        file.write("\n".join([machine(), "", HEAD, *(line for _, lines in tables for line in lines)]) + "\n")
     with open(RESULT, "w") as file:
         # The fields at the top are those of the first case, CAROCA.
         json.dump({**results[0], "cases": results}, file, indent=2)
-    print(f"\nwritten: {RESULT}")
+    print(f"\nwritten: {RESULT}, {PAGE}")
     for what, most in AGREEMENT.items():
         if not all(result[f"agreement_{what}"] <= most for result in results):
             raise SystemExit(f"the answers differ by more than {most} {what}")

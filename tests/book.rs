@@ -41,6 +41,33 @@ fn every_kind_of_error_has_an_entry_with_cause_and_remedy() {
     }
 }
 
+/// Whether a word of code in a page is a path of this repository, in full or from `crates`. A name in capitals
+/// is one to fill in.
+fn is_path(word: &str) -> bool {
+    let folders = ["crates/", "data/", "docs/", "peers/", "xtask/"];
+    let of_crate = word.starts_with("cdpr-") && (word.contains("/src") || word.contains("/tests"));
+    let is_plain = word.chars().all(|c| c.is_ascii_alphanumeric() || "_-./".contains(c));
+    let stem = word.rsplit('/').next().and_then(|name| name.split('.').next()).unwrap_or_default();
+    let is_to_fill_in = !stem.is_empty() && stem.chars().all(|c| c.is_ascii_uppercase());
+    (of_crate || folders.iter().any(|folder| word.starts_with(folder))) && is_plain && !is_to_fill_in
+}
+
+#[test]
+fn paths_that_pages_name_exist() {
+    let (mut count, mut all) = (0, Vec::new());
+    pages(&root().canonicalize().unwrap(), &mut all);
+    for page in all {
+        let text = std::fs::read_to_string(&page).unwrap();
+        let prose: String = text.split("```").step_by(2).collect();
+        for word in prose.split('`').skip(1).step_by(2).filter(|word| is_path(word)) {
+            let exists = root().join(word).exists() || root().join("crates").join(word).exists();
+            assert!(exists, "{}: there is no {word}", page.display());
+            count += 1;
+        }
+    }
+    assert!(count > 100, "{count}");
+}
+
 /// The anchor that mdBook makes of a heading.
 fn anchor(heading: &str) -> String {
     let heading = heading.trim_start_matches('#').trim().to_lowercase();

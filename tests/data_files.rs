@@ -1,5 +1,6 @@
 //! Data files are valid, have a source, and match the paper; schemas in the docs are those of the code.
 
+use cdpr_assess::{Severity, inspect};
 use cdpr_robot::library::{CABLES, LibraryFile, ROBOTS, named, near};
 use cdpr_robot::{CatalogueCable, Pose, Robot};
 use cdpr_study::Study;
@@ -139,6 +140,19 @@ fn the_gallery_has_a_section_a_picture_and_a_live_page_of_every_robot() {
         assert!(root().join("docs").join(&picture).exists(), "{picture}: run: cargo xtask gallery");
         let link = format!("href=\"explorer/{}.html\"", file.name);
         assert!(live.contains(&link), "{}: run: cargo xtask gallery", file.name);
+    }
+}
+
+#[test]
+fn the_gallery_counts_the_findings_of_every_robot() {
+    let page = std::fs::read_to_string(root().join("docs/robots.md")).unwrap();
+    for file in ROBOTS {
+        let section = page.split(&format!("| `{}` |", file.name)).nth(1).unwrap();
+        let findings = inspect(&Robot::from_json(file.text).unwrap());
+        let warnings = findings.iter().filter(|finding| finding.severity == Severity::Warning).count();
+        let line = format!("warnings {warnings}, notes {} |", findings.len() - warnings);
+        let shown = section.split("| `cdpr robot check` | ").nth(1).unwrap().lines().next().unwrap();
+        assert_eq!(shown, line, "{}: run: cargo xtask gallery", file.name);
     }
 }
 

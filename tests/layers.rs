@@ -256,3 +256,19 @@ fn a_word_has_one_spelling() {
     }
     assert!(found.is_empty(), "expected -ize: {found:#?}");
 }
+
+#[test]
+fn pages_have_no_old_words() {
+    let mut found = Vec::new();
+    for (file, text) in covered(&["md"]) {
+        // Pages that are made of the documentation of sources, and answers of the program, are not looked at.
+        let is_made = ["docs/api/", "docs/fields.md"].iter().any(|path| file.starts_with(path));
+        if !is_made {
+            let prose: String = text.split("```").step_by(2).collect();
+            found.extend(
+                words::old_words(&prose).into_iter().map(|word| format!("{}: {word}", file.display())),
+            );
+        }
+    }
+    assert!(found.is_empty(), "tests/layers/words.rs has other words: {found:#?}");
+}

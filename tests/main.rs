@@ -5,6 +5,7 @@
 mod book;
 mod caroca_study;
 mod data_files;
+mod fields;
 mod layers;
 mod manifests;
 mod names;

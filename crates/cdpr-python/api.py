@@ -1,6 +1,6 @@
 """Writes the reference of the package as pages of Markdown, one for each module, from its documentation.
 
-Run it with the package installed: python crates/cdpr-python/api.py FOLDER
+Run it with the package installed after a change of a documentation comment: python crates/cdpr-python/api.py docs/api
 """
 
 import inspect
@@ -57,7 +57,8 @@ def members(of):
     """Public fields and methods of a class, by name."""
     for name in dir(of):
         value = inspect.getattr_static(of, name, None)
-        if not name.startswith("_") and value.__doc__ and not hasattr(tuple, name) and name not in getattr(of, "_fields", ()):
+        is_inherited = hasattr(tuple, name) or hasattr(Exception, name)
+        if not name.startswith("_") and value.__doc__ and not is_inherited and name not in getattr(of, "_fields", ()):
             yield name, getattr(of, name), value
 
 

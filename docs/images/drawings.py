@@ -122,7 +122,7 @@ def forces():
         size = math.hypot(*way)
         head = add(corner, way, 74 / size)
         line(corner, head, "force", 2.6)
-        label(add(head, (14 if index != 2 else -16, -12)), symbol(f"F_{index}"), "force-text")
+        label(add(head, (14 if index == 1 else -16, -12)), symbol(f"F_{index}"), "force-text")
         line(p, corner, "thin", width=1.3)
         dot(corner)
     label(add(p, (-44, -30)), symbol("s_1"))

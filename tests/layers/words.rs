@@ -54,6 +54,22 @@ pub(crate) fn other_spellings(text: &str) -> Vec<&str> {
     text.split(|sign: char| !sign.is_alphabetic()).filter(is_other).collect()
 }
 
+/// Old or poetic words. Write: next to or compared with, again, identify or show, instead of.
+const OLD: [&str; 6] = [" beside ", " anew ", " tell ", " tells ", " told ", " in place of "];
+
+/// The old words of a text.
+pub(crate) fn old_words(text: &str) -> Vec<&'static str> {
+    let words = text.split_whitespace().map(|word| word.trim_matches(|c: char| !c.is_alphanumeric()));
+    let plain = format!(" {} ", words.collect::<Vec<_>>().join(" ").to_lowercase());
+    OLD.into_iter().filter(|word| plain.contains(*word)).map(str::trim).collect()
+}
+
+#[test]
+fn old_words_are_found_over_the_ends_of_lines() {
+    assert_eq!(old_words("It stands In\nplace of (beside) others."), ["beside", "in place of"]);
+    assert!(old_words("besides, placed, telling").is_empty());
+}
+
 #[test]
 fn words_have_one_spelling() {
     let text = ["linear", "isation of an optim", "ised maxim", "izer, random, minimis, optimistic"].concat();

@@ -82,7 +82,7 @@ pub(crate) fn text_of(command: &mut Command, codes: &[i32]) -> Outcome<String> {
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// The date, the processor and the compiler: what figures depend on besides the program.
+/// The date, the processor, the compiler and the commit: what figures depend on.
 pub(crate) fn machine() -> String {
     let known = |program: &str, arguments: &[&str]| {
         printed(program, arguments).unwrap_or_else(|error| error.to_string())
@@ -91,7 +91,9 @@ pub(crate) fn machine() -> String {
     let cpu = cpu.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
     let cpu = cpu.map_or(std::env::consts::ARCH, |(_, name)| name);
     let cores = std::thread::available_parallelism().map_or(0, usize::from);
-    format!("{}, {cpu}, {cores} cores, {}", known("date", &["-u", "+%F"]), known("rustc", &["--version"]))
+    let [date, compiler] = [known("date", &["-u", "+%F"]), known("rustc", &["--version"])];
+    let commit = known("git", &["-C", &root().to_string_lossy(), "describe", "--always", "--dirty"]);
+    format!("{date}, {cpu}, {cores} cores, {compiler}, commit {commit}")
 }
 
 /// Processes that wanted to run during the last minute.

@@ -14,6 +14,7 @@ mod gallery;
 mod latency;
 mod led;
 mod release;
+mod runs;
 mod web;
 
 use cargo::{Outcome, cargo_command, done, load, machine, release_example, root, study, text_of, write};
@@ -65,8 +66,14 @@ enum Task {
     Latency(Rest),
     /// Measure how often estimators of cdpr-sensitivity are right
     ///
-    /// TABLE [STUDIES [FUNCTION]]; without TABLE it lists the tables, which docs/statistics.md keeps.
-    Statistics(Rest),
+    /// TABLE [STUDIES [FUNCTION]]; without TABLE it lists the tables, which docs/statistics.md shows.
+    Statistics {
+        /// Keep the table in data/evidence/statistics, with date, machine and commit in runs.json
+        #[arg(long)]
+        keep: bool,
+        #[command(flatten)]
+        rest: Rest,
+    },
     /// Run what a change has to pass, or steps of it: .ci/run
     Ci(Rest),
     /// Run the program on bad files and arguments: cargo test --test attack
@@ -106,7 +113,7 @@ enum Task {
     },
     /// Write docs/robots.md, a picture and a table for each robot of the library
     Gallery,
-    /// Write the JSON Schemas of the file formats to docs/schemas
+    /// Write the JSON Schemas of the file formats to docs/schemas, and docs/fields.md
     Schemas,
 }
 
@@ -123,6 +130,9 @@ struct Study {
     /// Folder of the results [default: target/caroca-study]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Keep its texts in data/evidence, with date, machine and commit in runs.json
+    #[arg(long)]
+    keep: bool,
     /// Observations of each part
     #[arg(long, value_name = "N")]
     observations: Option<String>,
@@ -142,7 +152,7 @@ fn main() -> ExitCode {
         Task::Robustness(rest) => robustness(&rest.rest),
         Task::Throughput { all, rest } => throughput(all, rest.rest),
         Task::Latency(rest) => latency::run(&rest.rest),
-        Task::Statistics(rest) => done(&mut release_example("cdpr-sensitivity", "statistics", &rest.rest)),
+        Task::Statistics { keep, rest } => statistics(keep, &rest.rest),
         Task::Bench { save, rest } => bench::run(save, &rest.rest),
         Task::Ci(rest) => done(Command::new(root().join(".ci/run")).args(rest.rest)),
         Task::Attack => done(&mut cargo_command(&["test", "--test", "attack"])),
@@ -187,7 +197,25 @@ fn caroca_study(settings: Study) -> Outcome {
     led::run(&out, &options)?;
     eprintln!("evaluating all configurations of the pulleys, a minute on two threads");
     let study = root().join("data/studies/caroca.json");
-    example("reconfiguration", &[&study], &out)
+    example("reconfiguration", &[&study], &out)?;
+    if !settings.keep {
+        return Ok(());
+    }
+    let names = ["published", "led", "reconfiguration"];
+    for file in names.map(|name| format!("{name}.txt")) {
+        write(&root().join("data/evidence").join(&file), &cargo::read(&out.join(&file))?)?;
+    }
+    runs::note(names.into_iter())
+}
+
+fn statistics(keep: bool, rest: &[String]) -> Outcome {
+    let mut example = release_example("cdpr-sensitivity", "statistics", rest);
+    let Some(table) = rest.first().filter(|_| keep) else { return done(&mut example) };
+    let text = text_of(&mut example, &[0])?;
+    println!("{text}");
+    let name = format!("statistics/{table}");
+    write(&root().join(format!("data/evidence/{name}.md")), &text)?;
+    runs::note([name.as_str()].into_iter())
 }
 
 /// Prints what an example of `cdpr-study` says of these files, and writes it to a text of its name in `out`.
@@ -233,5 +261,9 @@ fn schemas() -> Outcome {
     let examples = ["robot_schema", "study_schema", "events_schema", "design_schema"];
     examples
         .iter()
-        .try_for_each(|example| done(&mut cargo_command(&["run", "--quiet", "--example", example])))
+        .try_for_each(|example| done(&mut cargo_command(&["run", "--quiet", "--example", example])))?;
+    // The page of their fields.
+    let mut page =
+        cargo_command(&["test", "--quiet", "--package", "cdpr-tests", "--test", "integration", "fields::"]);
+    done(page.env("INSTA_UPDATE", "always"))
 }

@@ -31,6 +31,9 @@ pub(crate) struct Values {
     /// Version, such as 0.1.0 or 0.2.0-rc.1
     #[arg(long, value_name = "X.Y.Z", value_parser = version)]
     version: Option<Version>,
+    /// DOI of the software in an archive, such as 10.5281/zenodo.1234567
+    #[arg(long, value_name = "DOI", value_parser = doi)]
+    doi: Option<String>,
 }
 
 #[derive(Clone)]
@@ -87,6 +90,14 @@ fn version(value: &str) -> Result<Version, String> {
     })
 }
 
+fn doi(value: &str) -> Result<String, String> {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-._;()/".contains(c);
+    let parts = value.split_once('/').filter(|(prefix, name)| prefix.starts_with("10.") && !name.is_empty());
+    let is_doi = parts.is_some() && value.chars().all(is_plain);
+    let expected = "expected a DOI without its address, such as 10.5281/zenodo.1234567";
+    is_doi.then(|| value.to_owned()).ok_or_else(|| expected.to_owned())
+}
+
 /// The files that differ with these values.
 fn changed(values: &Values, today: &str, open: impl Fn(&'static str) -> Outcome<String>) -> Outcome<Files> {
     let manifest = open("Cargo.toml")?;
@@ -116,11 +127,14 @@ fn changed(values: &Values, today: &str, open: impl Fn(&'static str) -> Outcome<
         // ROS has versions of three numbers alone.
         let numbers = format!("{}.{}.{}", new.major, new.minor, new.patch);
         edits.extend([
-            (CITATION, "\nversion: ", "\n", new.to_string()),
-            (CITATION, "\ndate-released: ", "\n", today.to_owned()),
+            // With the date, which is there once a version is released.
+            (CITATION, "\nversion: ", "\nrepository-code: ", format!("{new}\ndate-released: {today}")),
             (RECIPE, "version: \"", "\"", new.to_string()),
             (ROS, "\n  <version>", "</version>", numbers),
         ]);
+    }
+    if let Some(doi) = &values.doi {
+        edits.push((CITATION, "\ntype: software\n", "version: ", format!("doi: {doi}\n")));
     }
     let mut files = Files::new();
     let mut edit = |file: &'static str, what: &str, change: &dyn Fn(&str) -> Option<String>| -> Outcome {
@@ -190,6 +204,8 @@ mod tests {
             "Ada King <ada@example.net>, Grace Brewster Hopper <grace@example.net>",
             "--version",
             "3.1.4-rc.1",
+            "--doi",
+            "10.5281/zenodo.1",
         ]);
         let files = changed(&first.unwrap(), "2030-01-02", |file| read(&root().join(file))).unwrap();
         let has = |file: &str, text: &str| assert!(files[file].contains(text), "{file}: {}", files[file]);
@@ -200,7 +216,8 @@ mod tests {
         has("Cargo.toml", "\nversion = \"3.1.4-rc.1\"\n");
         has("Cargo.toml", "cdpr-web = { path = \"crates/cdpr-web\", version = \"3.1.4-rc.1\" }");
         has("CITATION.cff", "  - family-names: Hopper\n    given-names: Grace Brewster\n    email: grace@");
-        has("CITATION.cff", "version: 3.1.4-rc.1\ndate-released: 2030-01-02\n");
+        has("CITATION.cff", "type: software\ndoi: 10.5281/zenodo.1\nversion: 3.1.4-rc.1\n");
+        has("CITATION.cff", "version: 3.1.4-rc.1\ndate-released: 2030-01-02\nrepository-code: ");
         has("crates/cdpr-python/pyproject.toml", "{ name = \"Ada King\", email = \"ada@example.net\" }");
         has("docs/joss/paper.md", "  - name: Ada King\n    affiliation: 1\n  - name: Grace");
         has("recipe/recipe.yaml", "version: \"3.1.4-rc.1\"");
@@ -232,6 +249,10 @@ mod tests {
         refused(
             "--version",
             &["", "1", "1.2", "1.2.3.4", "v1.2.3", "1.02.3", "1.2.3-", "1.2.3-a b", "1.2.3+4"],
+        );
+        refused(
+            "--doi",
+            &["", "zenodo.1", "10.5281", "10.5281/", "https://doi.org/10.5281/zenodo.1", "10.1/a b"],
         );
         assert!(parsed(&["--version"]).is_err() && parsed(&[]).is_err() && parsed(&["--name", "a"]).is_err());
     }

@@ -14,9 +14,9 @@ use std::process::Command;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// What the products are made of, in the workspace: sources of these crates, and other files.
+/// What the products are made of, in the workspace: sources and manifests of these crates, and other files.
 const CRATES: [&str; 8] = ["number", "cable", "robot", "tension", "statics", "sensitivity", "study", "web"];
-const FILES: [&str; 3] = ["crates/cdpr-web/page", "crates/cdpr-web/Cargo.toml", "data/robots"];
+const FILES: [&str; 4] = ["crates/cdpr-web/page", "data/robots", "Cargo.toml", "Cargo.lock"];
 
 /// Folders of the page that tools make.
 const MADE: [&str; 2] = ["node_modules", "pkg"];
@@ -106,16 +106,15 @@ fn wasm_bindgen() -> Outcome<PathBuf> {
     Ok(program)
 }
 
-/// The checksum of all sources, with their names.
+/// The checksum of the compiler's version and of all sources, with their names.
 fn checksum() -> Outcome<String> {
     let mut all = Vec::new();
-    for source in
-        CRATES.map(|name| format!("crates/cdpr-{name}/src")).into_iter().chain(FILES.map(String::from))
-    {
+    let of_crate = |name: &str| ["src", "Cargo.toml"].map(|part| format!("crates/cdpr-{name}/{part}"));
+    for source in CRATES.into_iter().flat_map(of_crate).chain(FILES.map(String::from)) {
         all.extend(files(&root().join(source), &MADE)?);
     }
     all.sort();
-    let mut bytes = Vec::new();
+    let mut bytes = printed("rustc", &["--version"])?.into_bytes();
     for file in all {
         let name = file.strip_prefix(root())?.to_string_lossy().replace('\\', "/");
         let content = fs::read(&file)?;

@@ -21,7 +21,7 @@ const CASES: &str = include_str!("../../../data/evidence/cases.json");
 pub enum Level {
     /// Exact values: arithmetic of 20 to 40 digits, or a law that has to hold.
     Analytic,
-    /// A program that shares no code with this one.
+    /// A program that shares no code with this one, or what others have published.
     Independent,
     /// Measurements of a robot or a cable.
     Experiment,
@@ -74,6 +74,10 @@ pub struct Case {
     pub unit: String,
     /// What is accepted.
     pub accepted: Acceptance,
+    /// Whether the figure is a result in all its digits, such as a difference from an experiment; other figures
+    /// are errors near rounding, of which the order counts.
+    #[serde(default)]
+    pub digits: bool,
     /// The test that makes the comparison: a crate and the name of the test.
     pub test: [String; 2],
 }

@@ -127,3 +127,7 @@ def test_the_reference_has_a_page_for_each_module(tmp_path):
         assert page.count("```") % 2 == 0
     assert "\n### `Robot.inverse(pose, *, force=None" in pages[cdpr]
     assert "| `displacement` | Displacement dp of P," in pages[cdpr]
+    book = Path(__file__).parents[3] / "docs" / "api"
+    for page in tmp_path.iterdir():
+        kept = (book / page.name).read_text(encoding="utf-8")
+        assert kept == page.read_text(encoding="utf-8"), f"docs/api/{page.name}: run: python crates/cdpr-python/api.py docs/api"

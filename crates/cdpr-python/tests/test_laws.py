@@ -62,7 +62,7 @@ def test_a_sample_of_a_normal_law_is_found_and_a_few_values_are_undecided():
     assert found.aic[normal] == pytest.approx(4 - 2 * likelihood)
     assert found.p_value[normal] > 0.05 > found.p_value[found.families.index("uniform")]
     assert found.probability.sum() == pytest.approx(1.0)
-    assert found.evidence == "decided" and "normal, p = " in repr(found)
+    assert found.evidence == "decided" and "normal, p = " in repr(found) and " families" in repr(found)
     few = sensitivity.fit(values[:5])
     assert few.evidence == "undecided" and "(undecided)" in repr(few)
     peaks = sensitivity.fit(numpy.concatenate([values, values + 100]))

@@ -1,4 +1,4 @@
-//! GRAB, a prototype with four cables over horizontal swivel axes: equilibria and natural frequencies beside
+//! GRAB, a prototype with four cables over horizontal swivel axes: equilibria and natural frequencies next to
 //! what motion capture recorded (`data/reference/grab.json`, docs/grab.md).
 
 use crate::equilibria::{number, vector};
@@ -8,6 +8,7 @@ use cdpr_statics::error::RestFault;
 use cdpr_statics::free_coordinates::free_solutions;
 use cdpr_statics::{DirectProblem, DirectStart, Load, StaticsError, WantedPose, deflection};
 use serde_json::Value;
+use std::fmt::Write;
 
 fn grab() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/grab.json")).unwrap()
@@ -52,10 +53,10 @@ fn the_frequencies_of_a_prototype_are_those_that_motion_capture_recorded() {
     let records: Value = serde_json::from_str(include_str!("../../../data/reference/grab.json")).unwrap();
     let mut errors: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
     let mut off: f64 = 0.0;
-    println!(
-        "| record | from the mean pose [mm, °] | f1 [Hz] | measured | | f2 [Hz] | measured | | power ratio |"
+    let mut table = String::from(
+        "| record | from the mean pose [mm, °] | f1 [Hz] | measured | | f2 [Hz] | measured | | power ratio |\n\
+         |---|---|---|---|---|---|---|---|---|\n",
     );
-    println!("|---|---|---|---|---|---|---|---|---|");
     for record in records["records"].as_array().unwrap() {
         let mean = pose(record);
         let (rest, frequencies) = found(&robot, &lengths(&robot, &mean), &mean);
@@ -73,20 +74,19 @@ fn the_frequencies_of_a_prototype_are_those_that_motion_capture_recorded() {
             format!("{:.3} | {measured:.3} | {error:+.1} %", frequencies[k])
         });
         let (away, turned) = (1e3 * away, turned.to_degrees());
-        println!("| {} | {away:.1}, {turned:.2} | {first} | {second} | {ratio:.3} |", record["record"]);
+        let place = format!("{away:.1}, {turned:.2}");
+        writeln!(table, "| {} | {place} | {first} | {second} | {ratio:.3} |", record["record"]).unwrap();
         assert!(away < 30.0 && turned < 3.0, "{}: {away} mm {turned}°", record["record"]);
     }
     let [first, second] = errors;
     assert_eq!(first.len(), 24);
     let size = |errors: &[f64]| -> Vec<f64> { errors.iter().map(|error| error.abs()).collect() };
+    table += "\n24 records with a power ratio above 0.02:\n\n| | median of the error's size | worst | median of the \
+              error |\n|---|---|---|---|\n";
     for (name, errors) in [("f1", &first), ("f2", &second)] {
         let worst = size(errors).into_iter().fold(0.0, f64::max);
-        println!(
-            "{name} of the 24 records with a power ratio above 0.02: |error| {:.2} % in the median, \
-             {worst:.1} % at worst; signed {:+.2} %",
-            median(size(errors)),
-            median(errors.clone())
-        );
+        let medians = [median(size(errors)), median(errors.clone())];
+        writeln!(table, "| {name} | {:.2} % | {worst:.1} % | {:+.2} % |", medians[0], medians[1]).unwrap();
         let k = usize::from(name == "f2");
         accept(["V-MOTION-013", "V-MOTION-014"][k], median(size(errors)));
         accept("V-MOTION-015", worst);
@@ -105,8 +105,23 @@ fn the_frequencies_of_a_prototype_are_those_that_motion_capture_recorded() {
             100.0 * (frequencies[0] / number(&record["measured_hz"][0]) - 1.0).abs()
         })
         .collect();
-    println!("f1 without pulleys: |error| {:.2} % in the median", median(worse.clone()));
-    assert!(median(worse) > 1.5 * median(size(&first)));
+    let worse = median(worse);
+    writeln!(table, "\nWithout the pulleys the median of the error's size of f1 is {worse:.2} %.").unwrap();
+    assert!(worse > 1.5 * median(size(&first)));
+    kept(&table);
+}
+
+/// Compares the table of docs/grab.md; `INSTA_UPDATE=always` writes it.
+fn kept(table: &str) {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/evidence/grab.md");
+    if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+        std::fs::write(path, table).unwrap();
+    }
+    let kept = std::fs::read_to_string(path).unwrap();
+    for (line, kept) in table.lines().zip(kept.lines()) {
+        assert_eq!(line, kept, "data/evidence/grab.md; INSTA_UPDATE=always writes it");
+    }
+    assert_eq!(table.lines().count(), kept.lines().count());
 }
 
 #[test]

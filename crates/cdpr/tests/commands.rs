@@ -1,13 +1,19 @@
-//! Every command has an example in docs/COMMANDS.md; `book.rs` runs them.
+//! Every command has an example with its answer in docs/COMMANDS.md, and its options in docs/options.md.
+//! `transcripts.rs` compares the answers, and `book.rs` runs the other examples.
 
 use crate::common::{answered, cdpr, unwrapped};
 use std::path::{Path, PathBuf};
 
 const DOCUMENT: &str = include_str!("../../../docs/COMMANDS.md");
 
-fn examples() -> Vec<&'static str> {
-    let blocks = DOCUMENT.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap());
-    blocks.flat_map(str::lines).collect()
+const OPTIONS: &str = include_str!("../../../docs/options.md");
+
+/// Commands of a page with the first line of what they print.
+fn shown(page: &'static str) -> Vec<(&'static str, &'static str)> {
+    let blocks = page.split("```console\n").skip(1).map(|rest| rest.split("```").next().unwrap());
+    let pairs = |block: &'static str| block.lines().zip(block.lines().skip(1).chain([""]));
+    let commands = blocks.flat_map(pairs).filter_map(|(line, next)| Some((line.strip_prefix("$ ")?, next)));
+    commands.collect()
 }
 
 /// The words of every command, as the help of the program lists them.
@@ -23,12 +29,19 @@ fn commands() -> Vec<String> {
 }
 
 #[test]
-fn every_command_has_an_example() {
+fn every_command_has_an_example_with_its_answer_and_its_options() {
     let commands = commands();
     assert!(commands.len() > 30, "{commands:?}");
+    let (examples, options) = (shown(DOCUMENT), shown(OPTIONS));
     for command in commands {
-        let has_one = examples().iter().any(|line| line.starts_with(&format!("cdpr {command}")));
-        assert!(has_one, "docs/COMMANDS.md has no example of `{command}`");
+        let answer = examples.iter().find(|(line, _)| line.starts_with(&format!("cdpr {command} ")));
+        let (_, answer) = answer.unwrap_or_else(|| panic!("docs/COMMANDS.md has no answer of `{command}`"));
+        assert!(
+            !answer.is_empty() && !answer.starts_with("$ "),
+            "docs/COMMANDS.md: `{command}` says nothing"
+        );
+        let has_help = options.iter().any(|(line, _)| *line == format!("cdpr {command} -h"));
+        assert!(has_help, "docs/options.md has no help of `{command}`");
     }
 }
 

@@ -1,17 +1,18 @@
-//! Tutorials and guides of the book: their commands print what the pages show, and draw the pictures.
+//! Tutorials, guides and commands of the book, and the README: commands print what the pages show, and draw
+//! the pictures.
 //!
 //! A page runs in a folder of its own with the files of the folder of its name. `INSTA_UPDATE=always` writes
 //! pages and pictures again, as it does with snapshots.
 
 use crate::common::{is_progress, text};
-use crate::verdict::ishigami_among_twelve;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
 
 /// Pages with a test each, in the order of the table of contents.
-const PAGES: [&str; 17] = [
+const PAGES: [&str; 24] = [
+    "../README",
     "tutorials/cogiro",
     "tutorials/my-robot",
     "tutorials/calibration",
@@ -29,21 +30,16 @@ const PAGES: [&str; 17] = [
     "how-to/table",
     "how-to/observations",
     "how-to/errors",
+    "COMMANDS",
+    "options",
+    "hysteresis",
+    "grab",
+    "formats",
+    "explorer",
 ];
 
 fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
-}
-
-/// The flight of a camera as a planner saves it, 100 s at 50 Hz.
-fn write_flight(folder: &Path) {
-    let mut table = "t_s;x_m;y_m;z_m\n".to_owned();
-    for k in 0..5000 {
-        let angle = std::f64::consts::TAU * f64::from(k) / 5000.0;
-        let [x, y, z] = [35.0 * angle.sin(), 20.0 * (2.0 * angle).sin(), 10.0 + 4.0 * (3.0 * angle).cos()];
-        writeln!(table, "{:.2};{x:.4};{y:.4};{z:.4}", f64::from(k) / 50.0).unwrap();
-    }
-    std::fs::write(folder.join("flight.csv"), table.replace('.', ",")).unwrap();
 }
 
 /// What a command of a page prints, both outputs in their order, and its exit code unless that is 0.
@@ -174,6 +170,33 @@ fn link_data(folder: &Path) {
 }
 
 #[test]
+fn the_readme_shows_what_its_command_prints() {
+    checked("../README", |_| {});
+}
+
+#[test]
+fn each_command_of_the_reference_answers_as_it_is_shown() {
+    checked("COMMANDS", link_data);
+}
+
+#[test]
+fn the_cable_of_caroca_is_measured_and_put_into_its_model() {
+    checked("hysteresis", link_data);
+}
+
+#[test]
+fn pages_with_single_commands_show_what_these_print() {
+    for name in ["grab", "formats", "explorer"] {
+        checked(name, link_data);
+    }
+}
+
+#[test]
+fn the_options_of_the_reference_are_those_of_the_program() {
+    checked("options", |_| {});
+}
+
+#[test]
 fn a_first_visitor_sees_cogiro_deflect() {
     let page = checked("tutorials/cogiro", |_| {});
     assert!(page.contains("CoGiRo at (0, 0, 2) m is displaced by 3.11215 mm"));
@@ -213,7 +236,7 @@ fn poses_become_lengths_for_matlab() {
 
 #[test]
 fn an_engineer_of_a_stadium_flies_a_camera_along_a_planned_flight() {
-    let page = checked("how-to/planner", write_flight);
+    let page = checked("how-to/planner", |_| {});
     assert!(page.contains("5000 of 5000 poses held"));
 }
 
@@ -255,7 +278,7 @@ fn figures_for_a_paper_are_drawn() {
 
 #[test]
 fn a_statistician_learns_that_three_of_twelve_inputs_matter() {
-    let page = checked("how-to/table", ishigami_among_twelve);
+    let page = checked("how-to/table", |_| {});
     assert!(page.contains("\ny: 3 of 12 inputs are certain to matter: x2 ("));
 }
 

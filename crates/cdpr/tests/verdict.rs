@@ -99,7 +99,7 @@ fn a_study_without_measures_of_sensitivity_has_a_recommended_one_and_names_what_
 
 /// A table of Ishigami's function `sin x1 + 7 sin² x2 + 0.1 x3⁴ sin x1` and of `x5` with noise, 500 rows of
 /// twelve independent inputs.
-pub(crate) fn ishigami_among_twelve(folder: &Path) {
+fn ishigami_among_twelve(folder: &Path) {
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
     // Multiplicative congruential generator of P. L'Ecuyer (1999), its upper 53 bits.
     let mut uniform = || {

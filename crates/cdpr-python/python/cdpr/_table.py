@@ -148,7 +148,8 @@ class Table:
         rest = ["..."] if count > len(rows) else []
         values = "".join(f", {name} {getattr(self, name):.4g}" for name in self._shown)
         name = f"{self._module}.{type(self).__name__}"
-        return f"<{name} of {count} {self._name}s{values}: {'; '.join(rows + rest)}>"
+        names = f"{self._name[:-1]}ies" if self._name.endswith("y") else f"{self._name}s"
+        return f"<{name} of {count} {names}{values}: {'; '.join(rows + rest)}>"
 
 
 def by_output(

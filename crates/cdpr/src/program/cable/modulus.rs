@@ -125,7 +125,9 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
 fn print(found: &Found, specimen: &Specimen) {
     for InRange { from_percent, to_percent, loading, .. } in found.ranges.iter().take(1) {
         let [modulus, error] = [loading.modulus_gpa, loading.standard_uncertainty_gpa];
-        let [force, elongation] = [specimen.force_error, 1e3 * specimen.elongation_error];
+        // Without the rounding of the factor, 0.030000000000000002 mm.
+        let elongation = (1e12 * specimen.elongation_error).round() / 1e9;
+        let force = specimen.force_error;
         print_sentence(&format!(
             "While loading, from {from_percent} to {to_percent} %: {modulus:.2} GPa +- {error:.2} GPa, where \
              errors, of {force} N and {elongation} mm, are independent."
