@@ -293,6 +293,20 @@ impl Robot {
         }
     }
 
+    /// Height of P [m] from which on no anchor point of a platform without rotation is below the ground
+    /// ([`Robot::ground_z`]) or, under exit points that are all above it, below z = 0; -∞ where neither is known.
+    pub fn floor(&self) -> f64 {
+        let anchors = self.cables.iter().map(|cable| cable.anchor_point.z);
+        let (lowest, exits) =
+            (anchors.fold(0.0, f64::min), self.cables.iter().map(|cable| cable.exit_point.z));
+        let below = exits.fold(f64::INFINITY, f64::min);
+        match self.ground_z {
+            Some(ground) if ground - lowest < below => ground - lowest,
+            _ if below > 0.0 => (-lowest).min(below),
+            _ => f64::NEG_INFINITY,
+        }
+    }
+
     /// Arm s_i = R a_i from P to anchor point i, in the base frame [m].
     #[inline]
     pub fn anchor_arm(&self, pose: &Pose, i: usize) -> Vector3<f64> {

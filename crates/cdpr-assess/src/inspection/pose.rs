@@ -135,12 +135,7 @@ pub(super) fn held(robot: &Robot) -> Option<(Pose, InverseSolution)> {
     let [[x_low, x_high], [y_low, y_high], [z_low, z_high]] = frame(robot);
     let size = (x_high - x_low).max(y_high - y_low).max(z_high - z_low);
     let flat = z_high - z_low <= 0.1 * size;
-    let lowest = robot.cables.iter().map(|cable| cable.anchor_point.z).fold(0.0, f64::min);
-    let floor = match robot.ground_z {
-        Some(ground) if ground - lowest < z_low => ground - lowest,
-        _ if z_low > 0.0 => (-lowest).min(z_low),
-        _ => f64::NEG_INFINITY,
-    };
+    let floor = robot.floor();
     let middle = if flat { (z_low - 0.5 * size).max(0.5 * (floor + z_low)) } else { 0.5 * (z_low + z_high) };
     (0..=20).find_map(|k| {
         let offset = 0.05 * size * f64::from((k + 1) / 2) * if k % 2 == 0 { 1.0 } else { -1.0 };

@@ -57,8 +57,12 @@ struct AnswerFile {
     text: String,
 }
 
-/// From now on, what is printed goes to a file, which is written when the command ends.
+/// From now on, what is printed goes to a file, which is written when the command ends; `-` is the standard
+/// output.
 pub(crate) fn print_to(path: &Path, if_exists: IfExists) {
+    if path.as_os_str() == "-" {
+        return;
+    }
     let mut answer = ANSWER.lock().unwrap_or_else(PoisonError::into_inner);
     if answer.is_none() {
         *answer = Some(AnswerFile { path: path.to_owned(), if_exists, text: String::new() });

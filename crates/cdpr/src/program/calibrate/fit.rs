@@ -168,6 +168,9 @@ impl Settings {
     }
 }
 
+/// Chi-square for each degree of freedom above which the model is another one.
+const MISFIT: f64 = 100.0;
+
 /// Parameters in the table of the answer.
 const LEADING: usize = 5;
 
@@ -192,6 +195,17 @@ fn print(summary: &CalibrationSummary) {
             "{robot}: the position is not known: it depends on {first}{others}, which neither measurements \
              nor priors identify."
         ));
+    }
+    let misfit = summary.chi_square / summary.degrees_of_freedom as f64;
+    if misfit > MISFIT {
+        sentences.insert(
+            0,
+            format!(
+                "The measurements do not fit {robot}: they are {} standard deviations off on average. Are they of \
+                 this robot, in this order of the cables, in these units?",
+                significant(misfit.sqrt(), 3)
+            ),
+        );
     }
     let unknowns = counted(unknowns, "unknown");
     sentences.push(format!("{identifiable} of {unknowns} of {robot} are identifiable."));
