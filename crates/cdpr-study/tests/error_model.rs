@@ -155,3 +155,15 @@ fn a_template_has_a_law_for_every_parameter_of_the_robot() {
         }
     }
 }
+
+#[test]
+fn a_template_stays_above_the_floor() {
+    let mut robot = Robot::from_library("cogiro").unwrap();
+    for height in [3.0, 4.0, 8.0] {
+        robot.cables.iter_mut().for_each(|cable| cable.exit_point.z = height);
+        let text = template(&robot, "robot.json", None, None, &[]).unwrap();
+        let file: Value = serde_json::from_str(&text).unwrap();
+        let z = file["samplings"]["all"]["pose"]["position"][2].as_f64().unwrap();
+        assert!(robot.floor() <= z && z < height, "{height} m: {z} m, floor {} m", robot.floor());
+    }
+}

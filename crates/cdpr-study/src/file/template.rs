@@ -253,8 +253,8 @@ fn with_tolerances(
 const FEW: usize = 3;
 
 /// Positions above each other in the middle of the exit points, between the lowest and the highest of these;
-/// below them, but not below the floor, where all exit points have the same height. The intervals are halved, and their ends are left
-/// out. A platform of few cables is put aside of the middle, where symmetry holds it in many ways.
+/// below them and above the floor where all have the same height. Intervals are halved without their ends. A
+/// platform of few cables is put aside of the middle, where symmetry holds it in many ways.
 fn candidates(robot: &Robot, is_few: bool) -> Vec<[f64; 3]> {
     let exits = || robot.cables.iter().map(|cable| cable.exit_point);
     let middle = exits().sum::<Vector3<f64>>() / robot.cables.len() as f64;
@@ -268,7 +268,8 @@ fn candidates(robot: &Robot, is_few: bool) -> Vec<[f64; 3]> {
     let ((left, right), (mut low, high)) = (extent(across), extent(along));
     let aside: &[f64] = if is_few { &[0.05, 0.1] } else { &[0.0] };
     if along == 2 && high - low < 0.2 * (right - left) {
-        low = (high - 0.5 * (right - left)).max(robot.floor());
+        let (below, floor) = (high - 0.5 * (right - left), robot.floor());
+        low = if 0.5 * (below + high) < floor { floor } else { below };
     }
     let shares = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9];
     // To a centimetre: what users see, they change.

@@ -196,7 +196,7 @@ fn print(summary: &CalibrationSummary) {
              nor priors identify."
         ));
     }
-    let misfit = summary.chi_square / summary.degrees_of_freedom as f64;
+    let misfit = summary.chi_square / summary.degrees_of_freedom.max(1) as f64;
     if misfit > MISFIT {
         sentences.insert(
             0,
