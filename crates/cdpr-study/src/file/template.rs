@@ -252,9 +252,8 @@ fn with_tolerances(
 /// Positions of a robot of few cables at which smaller tolerances are tried.
 const FEW: usize = 3;
 
-/// Positions above each other in the middle of the exit points, between the lowest and the highest of these;
-/// below them and above the floor where all have the same height. Intervals are halved without their ends. A
-/// platform of few cables is put aside of the middle, where symmetry holds it in many ways.
+/// Positions above each other in the middle of the exit points, between the lowest and the highest, or below them
+/// and above the floor where all have one height; of few cables aside of it, where symmetry holds many poses.
 fn candidates(robot: &Robot, is_few: bool) -> Vec<[f64; 3]> {
     let exits = || robot.cables.iter().map(|cable| cable.exit_point);
     let middle = exits().sum::<Vector3<f64>>() / robot.cables.len() as f64;
