@@ -261,7 +261,9 @@ impl<S: Equations> Radau<S> {
             right.extend(first.iter().zip(&w[0]).map(|(slope, w)| slope - REAL / h * w));
             let by = COMPLEX / h;
             both.clear();
-            both.extend((0..n).map(|i| Complex::new(second[i], third[i]) - by * Complex::new(w[1][i], w[2][i])));
+            both.extend(
+                (0..n).map(|i| Complex::new(second[i], third[i]) - by * Complex::new(w[1][i], w[2][i])),
+            );
             let first = newton.at.solve(real, right);
             let others = newton.at.solve(complex, both);
             let mut square = 0.0;

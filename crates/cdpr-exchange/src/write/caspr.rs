@@ -20,7 +20,9 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
         notes.push("leads have no place".to_owned());
     }
     if robot.cables.iter().any(|cable| cable.properties.law.is_some()) {
-        notes.push("elastic laws of cables have no place: K is EA of youngs_modulus, not of the law".to_owned());
+        notes.push(
+            "elastic laws of cables have no place: K is EA of youngs_modulus, not of the law".to_owned(),
+        );
     }
     let about_center = inertia(robot, &mut notes);
     let joint = match robot.plane {

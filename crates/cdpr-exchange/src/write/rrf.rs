@@ -48,7 +48,9 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
         }
     });
     if robot.cables.iter().any(|cable| cable.properties.law.is_some()) {
-        notes.push("elastic laws of cables have no place: S is EA of youngs_modulus, not of the law".to_owned());
+        notes.push(
+            "elastic laws of cables have no place: S is EA of youngs_modulus, not of the law".to_owned(),
+        );
     }
     notes.push(
         "the radius of the printed area (P), spools, gears and motors (Q, R, L, H, J, C) are not in a robot \
