@@ -158,8 +158,8 @@ pub(crate) fn recommend(
     // Derivatives do not see the jumps of an output.
     let refuted = candidates.iter().any(|of| of.basis == Basis::Sobol && of.contradicts(&candidates));
     candidates.retain(|of| of.basis != Basis::Derivatives || !refuted);
-    complete(&mut candidates);
     candidates.sort_by_key(rank);
+    complete(&mut candidates);
     // Where points of derivatives cannot settle the others, blocks may, and where nothing is bounded.
     let of_blocks =
         candidates.iter().find(|of| of.basis == Basis::Sobol).and_then(|blocks| blocks.remedy(names));
@@ -352,8 +352,7 @@ mod tests {
             recommend(&names(2), vec![derivatives, blocks], 0.95).unwrap()
         };
         let settled = found(bounds(0.0, 0.0, 0.0, 0.001));
-        assert_eq!((settled.basis, settled.remedy), (Basis::Derivatives, None));
-        assert_eq!(settled.measure, "measure by 64 of Derivatives or 64 of Sobol");
+        assert_eq!((settled.basis, settled.remedy), (Basis::Sobol, None));
         assert_eq!(settled.inputs[1].standing, Some(Standing::Negligible));
         let open = found(bounds(0.0, 0.1, 0.1, 0.2)).remedy.unwrap();
         assert!(open.contains("`sensitivity.saltelli_blocks`: 128"), "{open}");
@@ -369,6 +368,7 @@ mod tests {
         let found = recommend(&names(4), both, 0.95).unwrap();
         assert_eq!((found.with(Standing::Matters), found.with(Standing::Open)), (vec!["x0"], vec!["x3"]));
         assert_eq!((found.inputs[0].input.as_str(), found.inputs[0].value), ("x0", Some(0.7)));
+        assert_eq!(found.measure, "measure by 64 of Derivatives or 128 of Sobol");
         // The bounds of x3 lie on both sides for both.
         assert!(found.remedy.unwrap().contains("The share of x3 is so near"));
     }
