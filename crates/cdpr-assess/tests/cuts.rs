@@ -1,9 +1,11 @@
 //! Single cuts of all robots of the library, at poses that are drawn: each rest again by the direct model, on
-//! a robot that never had the cable.
+//! a robot that never had the cable. Some of them against the motion of an independent program.
 
 use cdpr_assess::{Breaks, Safety, safety_at};
+use cdpr_evidence::accept;
 use cdpr_robot::{Coordinate, Pose, Robot, UnitQuaternion, Vector3, library};
 use cdpr_statics::{DirectProblem, DirectStart, Load, StaticsError, WantedPose};
+use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
@@ -74,6 +76,10 @@ fn without(robot: &Robot, cable: usize) -> Robot {
     others
 }
 
+fn named(name: &str) -> Robot {
+    Robot::from_json(library::named(library::ROBOTS, name).unwrap().text).unwrap()
+}
+
 /// How far the rests that two searches find are apart, over the size of the robot: P, and the rotation [rad].
 fn apart(one: &Pose, other: &Pose, size: f64) -> f64 {
     let [a, b] = [one, other].map(|pose| UnitQuaternion::from_rotation_matrix(&pose.rotation));
@@ -124,7 +130,7 @@ fn every_rest_after_a_single_cut_is_confirmed_from_the_released_state() {
     let names: Vec<&str> = library::ROBOTS.iter().map(|file| file.name).collect();
     assert_eq!(names, MIDDLES.map(|(name, _)| name));
     for (name, middle) in MIDDLES {
-        let robot = Robot::from_json(library::named(library::ROBOTS, name).unwrap().text).unwrap();
+        let robot = named(name);
         let few = [Coordinate::Roll, Coordinate::Pitch];
         let free: &[Coordinate] = if robot.cables.len() == 4 { &few } else { &[] };
         let wanted = |pose: &Pose| {
@@ -149,5 +155,57 @@ fn every_rest_after_a_single_cut_is_confirmed_from_the_released_state() {
         );
         assert_eq!(poses, count(), "{name}: poses that are held");
         assert_eq!(confirmed, cuts, "{name}: {reasons:?}");
+    }
+}
+
+/// `data/reference/cuts.json`.
+#[derive(Deserialize)]
+struct Cuts {
+    cases: Vec<Cut>,
+}
+
+/// Where a platform rests 60 s after a cable was cut.
+#[derive(Deserialize)]
+struct Cut {
+    robot: String,
+    pose: [f64; 3],
+    /// Number of the cable, from 1.
+    cut: usize,
+    lengths: Vec<f64>,
+    position: [f64; 3],
+    rotation: [f64; 4],
+    tensions: Vec<f64>,
+}
+
+#[test]
+fn platforms_rest_where_a_damped_motion_of_moordyn_ends() {
+    let file: Cuts = serde_json::from_str(include_str!("../../../data/reference/cuts.json")).unwrap();
+    let robots: std::collections::BTreeSet<&str> = file.cases.iter().map(|cut| cut.robot.as_str()).collect();
+    assert!(robots.len() >= 3, "{robots:?}");
+    for cut in &file.cases {
+        let (robot, [x, y, z]) = (named(&cut.robot), cut.pose);
+        let pose = Pose::at(x, y, z);
+        let found = safety_at(&robot, WantedPose::at(&pose), &Load::none(), Breaks::default()).unwrap();
+        let name = format!("{} without {}", cut.robot, cut.cut);
+        // The motion was of cables of these lengths.
+        for (here, there) in found.lengths.iter().zip(&cut.lengths) {
+            assert!(
+                (here - there).abs() < 1e-9 * there,
+                "{name}: length {here} m, and {there} m in the file"
+            );
+        }
+        let rest = found.broken[cut.cut - 1].rest.as_ref().unwrap_or_else(|error| panic!("{name}: {error}"));
+        let there = Pose::with_quaternion(cut.position.into(), cut.rotation).unwrap();
+        let off = (rest.pose.position - there.position).norm();
+        let [turned, other] =
+            [&rest.pose, &there].map(|pose| UnitQuaternion::from_rotation_matrix(&pose.rotation));
+        let turned = turned.angle_to(&other);
+        let greatest = cut.tensions.iter().copied().fold(0.0, f64::max);
+        let apart = rest.tensions.iter().zip(&cut.tensions).map(|([at, _], there)| (at - there).abs());
+        let tension = apart.fold(0.0, f64::max) / greatest;
+        println!("{name}: moves {:.4} m and {off:.1e} m, {turned:.1e} rad apart", rest.moved);
+        accept("V-SAFETY-001", off);
+        accept("V-SAFETY-002", turned);
+        accept("V-SAFETY-003", tension);
     }
 }
