@@ -62,7 +62,8 @@ const MOST_ITERATIONS: usize = 6;
 const MOST_LINEARIZATIONS: usize = 2;
 /// Newton's method ends at this share of the error that is accepted.
 const NEWTON_TOLERANCE: f64 = 0.01;
-/// Newton's method is taken to converge as fast as in the last step, with this power for each step in between.
+/// Newton's method is taken to converge as fast as when that was last seen, with this power for each step
+/// since then.
 const FORGETTING: f64 = 0.8;
 const LEAST_FACTOR: f64 = 0.2;
 const GREATEST_FACTOR: f64 = 8.0;
@@ -261,7 +262,9 @@ impl<S: Equations> Radau<S> {
             right.extend(first.iter().zip(&w[0]).map(|(slope, w)| slope - REAL / h * w));
             let by = COMPLEX / h;
             both.clear();
-            both.extend((0..n).map(|i| Complex::new(second[i], third[i]) - by * Complex::new(w[1][i], w[2][i])));
+            both.extend(
+                (0..n).map(|i| Complex::new(second[i], third[i]) - by * Complex::new(w[1][i], w[2][i])),
+            );
             let first = newton.at.solve(real, right);
             let others = newton.at.solve(complex, both);
             let mut square = 0.0;
