@@ -26,7 +26,7 @@ pub use winch::{Profile, WinchLengths};
 use crate::error::DynamicsError;
 use cdpr_robot::Wrench;
 use cdpr_statics::{DirectProblem, Equilibrium};
-use run::{Wanted, run};
+use run::{Wanted, begin};
 pub use series::{Difference, Energy, Excursion, Sample, Series};
 
 /// The motion of a robot from rest under events.
@@ -59,9 +59,9 @@ pub fn simulate_controlled(
 ) -> Result<Series, DynamicsError> {
     settings.check()?;
     event::check(problem, events)?;
-    let solve = |elements, tolerance| {
-        run(
-            Wanted { problem, rest, events, settings: &Settings { tolerance, ..*settings }, control },
+    let start = |elements, tolerance| {
+        begin(
+            Wanted { problem, rest, events, settings: Settings { tolerance, ..*settings }, control },
             elements,
         )
     };
@@ -69,8 +69,13 @@ pub fn simulate_controlled(
     let chain = |elements| (Discretization::TAUT, Some(Discretization::chain(elements)));
     let elements = settings.discretization.map_or(chain(CHAINS[1]), |elements| (elements, None));
     let coarser = (elements.0.coarser(), elements.1.map(|_| Discretization::chain(CHAINS[0])));
-    let (fine, coarse) = rayon::join(|| solve(elements, tolerance), || solve(coarser, coarse));
-    let (mut fine, coarse) = (fine?, coarse?);
+    let both = |elements: (Discretization, Option<Discretization>), tolerance| {
+        let begun = start(elements, tolerance)?;
+        let series = begun.end(elements.1)?;
+        Ok::<_, DynamicsError>((begun, series))
+    };
+    let (fine, coarse) = rayon::join(|| both(elements, tolerance), || both(coarser, coarse));
+    let ((begun, mut fine), (_, coarse)) = (fine?, coarse?);
     fine.difference = fine.difference_to(&coarse);
     let size = problem.robot().platform_size();
     for pair in CHAINS[1..].windows(2) {
@@ -81,7 +86,7 @@ pub fn simulate_controlled(
         if !has_chain || differs <= (ENOUGH[0] * moves).max(ENOUGH[1]) {
             break;
         }
-        let finer = solve(chain(pair[1]), tolerance)?;
+        let finer = begun.end(Some(Discretization::chain(pair[1])))?;
         fine = Series { difference: finer.difference_to(&fine), ..finer };
     }
     Ok(fine)

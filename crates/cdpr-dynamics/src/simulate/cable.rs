@@ -77,6 +77,7 @@ pub(super) struct CableMatrices {
     pub(super) mass: Vec<f64>,
     pub(super) stiffness: Band<f64>,
     pub(super) damping: Band<f64>,
+    pub(super) is_damped: bool,
     pub(super) coupling: Vec<[Vector6<f64>; 2]>,
     /// The first unknown that is coupled.
     pub(super) coupled: usize,
@@ -243,10 +244,8 @@ impl CableInMotion<'_> {
     /// Kinetic energy without that of the anchor point's mass [J].
     pub(super) fn kinetic(&self, at: &Instant, own: [&[f64]; 2]) -> f64 {
         let before_last = at.points.positions.len().saturating_sub(1);
-        let mut twice = 0.0;
-        for (mass, velocity) in at.forces.masses.iter().zip(&at.points.velocities).take(before_last) {
-            twice += mass * velocity.norm_squared();
-        }
+        let points = at.forces.masses.iter().zip(&at.points.velocities).take(before_last);
+        let mut twice: f64 = points.map(|(mass, velocity)| mass * velocity.norm_squared()).sum();
         if let (Start::Led(lead), Some(_)) = (&self.start, &self.mesh) {
             twice += lead.mass(&self.material) * own[1][0] * own[1][0];
         }
@@ -255,10 +254,8 @@ impl CableInMotion<'_> {
 
     /// Energy stored by stretch and height [J].
     pub(super) fn stored(&self, at: &Instant, own: [&[f64]; 2], gravity: &Vector3<f64>) -> f64 {
-        let mut stored = 0.0;
-        for (length, pull) in self.lengths_of_pulls(at) {
-            stored += length * self.material.energy(pull);
-        }
+        let stretched = self.lengths_of_pulls(at).map(|(length, pull)| length * self.material.energy(pull));
+        let mut stored: f64 = stretched.sum();
         for (mass, position) in at.forces.masses.iter().zip(&at.points.positions) {
             stored -= mass * gravity.dot(position);
         }
@@ -313,13 +310,14 @@ impl CableInMotion<'_> {
             mass: vec![0.0; size],
             stiffness: Band::zeros(size, width),
             damping: Band::zeros(size, width),
+            is_damped: self.material.damping > 0.0,
             coupling: vec![[Vector6::zeros(); 2]; size],
             coupled: size,
         };
         let mut at_end = [Matrix3::zeros(); 2];
         let Some(mesh) = &self.mesh else {
             if let Some(pull) = at.forces.pulls.first() {
-                let across = way_length(at, at.length.0 * pull.stretch);
+                let across = at.way.map_or(at.length.0 * pull.stretch, |way| way.free);
                 at_end = [pull.stiffness(at.length.0, across), pull.damping(at.length.0)];
             }
             return (matrices, at_end);
@@ -390,10 +388,6 @@ impl CableInMotion<'_> {
             _ => Columns::Own((0..3).map(|k| (at_start + 3 * (point - 1) + k, axes[k])).collect()),
         }
     }
-}
-
-fn way_length(at: &Instant, whole: f64) -> f64 {
-    at.way.map_or(whole, |way| way.free)
 }
 
 /// The unknowns that move a point, each with its direction.

@@ -72,9 +72,12 @@ impl Linearization for Matrices {
         for (cable, (factored, coupling)) in self.cables.iter().zip(&by.cables) {
             let size = cable.mass.len();
             let own = &rates[cable.first..cable.first + size];
-            let mut load = cable.damping.times(own, |c, x| real(c) * x);
+            let mut load = vec![T::zero(); size];
+            if cable.is_damped {
+                cable.damping.add_product(own, &mut load);
+            }
             for i in 0..size {
-                load[i] += real(cable.mass[i]) * (accelerations[cable.first + i] + shift * own[i]);
+                load[i] += (accelerations[cable.first + i] + shift * own[i]).scale(cable.mass[i]);
             }
             for i in cable.coupled..size {
                 for k in 0..6 {

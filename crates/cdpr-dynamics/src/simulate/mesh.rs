@@ -198,7 +198,7 @@ impl Mesh {
     ) -> bool {
         /// Greatest error of a tension, relative to it, of points that are on the static shape. At the rest
         /// of the discrete cable, which begins the motion, the error is smaller by orders.
-        const ERROR: f64 = 0.3;
+        const ERROR: f64 = 0.1;
         let (shares, degree) = (self.shares(), self.rule.degree);
         let mut forces = Forces::default();
         self.forces(material, (length, 0.0), points, &mut forces);
@@ -267,9 +267,12 @@ impl Mesh {
             for (weight, row) in &rule.pulls {
                 let (slope, rate) = part.slopes(row, points);
                 let pull = material.pull(slope, rate);
-                let tension = pull.along * (weight * pull.tension);
+                let tension = weight * pull.tension;
+                let (x, y, z) = (tension * pull.along.x, tension * pull.along.y, tension * pull.along.z);
                 for (force, share) in forces[part.first..].iter_mut().zip(row) {
-                    *force -= tension * *share;
+                    force.x -= share * x;
+                    force.y -= share * y;
+                    force.z -= share * z;
                 }
                 pulls.push(pull);
             }
@@ -309,14 +312,17 @@ impl Part {
     /// r' and its rate at a point, whose row of derivatives is given.
     #[inline]
     pub(super) fn slopes(&self, row: &[f64], points: &Points) -> (Vector3<f64>, Vector3<f64>) {
-        let (mut slope, mut rate) = (Vector3::zeros(), Vector3::zeros());
-        let of_points = points.positions[self.first..].iter().zip(&points.velocities[self.first..]);
-        for (share, (position, velocity)) in row.iter().zip(of_points) {
-            slope += position * *share;
-            rate += velocity * *share;
-        }
         let scale = 2.0 / self.length;
-        (slope * scale, rate * scale)
+        let sum = |vectors: &[Vector3<f64>]| {
+            let mut sum = [0.0; 3];
+            for (share, vector) in row.iter().zip(vectors) {
+                sum[0] += share * vector.x;
+                sum[1] += share * vector.y;
+                sum[2] += share * vector.z;
+            }
+            Vector3::new(scale * sum[0], scale * sum[1], scale * sum[2])
+        };
+        (sum(&points.positions[self.first..]), sum(&points.velocities[self.first..]))
     }
 
     /// Stiffness and damping between two points.

@@ -39,9 +39,9 @@ pub(super) struct Spent {
 
 /// θ.
 const SHARE: f64 = 0.5;
-/// Longest step, relative to 1/ω of the fastest motion of the platform, and to the time in which a wave across
-/// a cable passes an element. Steps of a quarter of that move the platform otherwise by a tenth of what half
-/// as many elements do.
+/// Longest step, relative to 1/ω of the fastest motion of the platform, and to the time in which a wave
+/// across a cable passes an element. Steps of a quarter of that move the platform otherwise by some tenth of
+/// what half as many elements do.
 const LONGEST: [f64; 2] = [0.08, 0.5];
 const MOST_ITERATIONS: usize = 20;
 /// Error of a tension, relative to the modulus, at which Newton's method ends.
@@ -159,8 +159,8 @@ fn longest(system: &System, at: &Snapshot) -> f64 {
     (LONGEST[0] / fastest(&(lightness * stiffness))).min(LONGEST[1] * passing)
 }
 
-/// A bound of the largest angular frequency, for squares that are the eigenvalues of a matrix: the eighth root of
-/// the sum of their eighth powers.
+/// A bound of the largest angular frequency, for squares that are the eigenvalues of a matrix: of their eighth
+/// powers, the eighth root of the sum.
 fn fastest(squares: &Matrix6<f64>) -> f64 {
     let scale = squares.trace();
     let scaled = squares / scale.max(f64::MIN_POSITIVE);

@@ -62,7 +62,8 @@ const MOST_ITERATIONS: usize = 6;
 const MOST_LINEARIZATIONS: usize = 2;
 /// Newton's method ends at this share of the error that is accepted.
 const NEWTON_TOLERANCE: f64 = 0.01;
-/// Newton's method is taken to converge as fast as in the last step, with this power for each step in between.
+/// Newton's method is taken to converge as fast as when that was last seen, with this power for each step
+/// since then.
 const FORGETTING: f64 = 0.8;
 const LEAST_FACTOR: f64 = 0.2;
 const GREATEST_FACTOR: f64 = 8.0;

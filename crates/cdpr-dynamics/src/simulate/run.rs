@@ -29,15 +29,24 @@ pub(super) struct Wanted<'a> {
     pub(super) problem: &'a DirectProblem<'a>,
     pub(super) rest: &'a Equilibrium,
     pub(super) events: &'a [Event],
-    pub(super) settings: &'a Settings,
+    pub(super) settings: Settings,
     pub(super) control: &'a Control<'a>,
 }
 
 /// A motion in progress.
-struct Run<'a> {
+pub(super) struct Run<'a> {
     system: System<'a>,
     solver: Solver<'a>,
+    settings: Settings,
+    control: &'a Control<'a>,
     events: Vec<Event>,
+    /// Events that were applied.
+    applied: usize,
+    /// Times [s] at which a motion begins again, ascending, and how many of them have passed.
+    kinks: Vec<f64>,
+    passed: usize,
+    /// Samples that were kept.
+    kept: usize,
     series: Series,
     /// Where the platform rests before the first event.
     rest: Pose,
@@ -53,11 +62,12 @@ struct Run<'a> {
     loose: Vec<bool>,
 }
 
-/// The motion with one discretization, and with another one from the step on in which a cable goes slack.
-pub(super) fn run(
-    Wanted { problem, rest, events, settings, control }: Wanted,
+/// The motion with one discretization, to its end; or to the step in which a cable goes slack, where cables
+/// get other elements then.
+pub(super) fn begin<'a>(
+    Wanted { problem, rest, events, settings, control }: Wanted<'a>,
     (discretization, slack): (Discretization, Option<Discretization>),
-) -> Result<Series, DynamicsError> {
+) -> Result<Run<'a>, DynamicsError> {
     let mut events = events.to_vec();
     events.sort_by(|one, other| one.time.total_cmp(&other.time));
     let (mut system, mut state) = settings.system(problem, rest, discretization)?;
@@ -78,7 +88,13 @@ pub(super) fn run(
     let mut run = Run {
         system,
         solver,
+        settings,
+        control,
+        kinks: kinks(&events, settings.until),
         events,
+        applied: 0,
+        passed: 0,
+        kept: 0,
         series: Series {
             samples: Vec::new(),
             difference: Difference::default(),
@@ -100,43 +116,83 @@ pub(super) fn run(
     };
     run.before = run.energy();
     run.count_elements();
-    run.all(settings, control)?;
-    run.series.excursion.swing = swing(&run.places);
-    Ok(run.series)
+    run.go_on(true)?;
+    Ok(run)
 }
 
-impl Run<'_> {
-    fn all(&mut self, settings: &Settings, control: &Control) -> Result<(), DynamicsError> {
-        let count = (settings.until * settings.rate * (1.0 + 1e-12)).floor() as usize;
-        let samples = (0..=count).map(|k| (k as f64 / settings.rate).min(settings.until));
-        let mut kinks: Vec<f64> = Vec::new();
-        for event in &self.events {
-            kinks.push(event.time);
-            match &event.change {
-                Change::Shorten { over, .. } => kinks.push(event.time + over),
-                Change::Lengths(table) => kinks.push(event.time + table.duration()),
-                _ => {}
-            }
+/// Times at which events begin and winches stop, ascending.
+fn kinks(events: &[Event], until: f64) -> Vec<f64> {
+    let mut kinks = Vec::new();
+    for event in events {
+        kinks.push(event.time);
+        match &event.change {
+            Change::Shorten { over, .. } => kinks.push(event.time + over),
+            Change::Lengths(table) => kinks.push(event.time + table.duration()),
+            _ => {}
         }
-        kinks.retain(|time| *time <= settings.until);
-        kinks.sort_by(f64::total_cmp);
-        let mut kinks = kinks.into_iter().peekable();
-        let mut applied = 0;
+    }
+    kinks.retain(|time| *time <= until);
+    kinks.sort_by(f64::total_cmp);
+    kinks
+}
+
+impl<'a> Run<'a> {
+    /// The motion to its end, with these elements of all cables from the step on in which one goes slack.
+    pub(super) fn end(&self, slack: Option<Discretization>) -> Result<Series, DynamicsError> {
+        let mut run = self.copy();
+        run.slack = slack;
+        run.go_on(false)?;
+        let Self { mut series, places, .. } = run;
+        series.excursion.swing = swing(&places);
+        Ok(series)
+    }
+
+    fn copy(&self) -> Self {
+        let mut spent = self.spent;
+        spent.add(self.solver.work());
+        Self {
+            system: self.system.clone(),
+            solver: Solver::new(&self.system, self.solver.time(), self.solver.state().to_vec(), false),
+            events: self.events.clone(),
+            kinks: self.kinks.clone(),
+            series: self.series.clone(),
+            places: self.places.clone(),
+            loose: self.loose.clone(),
+            spent,
+            ..*self
+        }
+    }
+
+    /// Whether cables need other elements, because one is slack.
+    fn is_to_refine(&self) -> bool {
+        let is_refined = |elements| self.system.is_refined(elements, &self.loose);
+        self.loose.contains(&true) && self.slack.is_some_and(|elements| !is_refined(elements))
+    }
+
+    /// Goes on to the end, or to the step in which a cable goes slack.
+    fn go_on(&mut self, pauses: bool) -> Result<(), DynamicsError> {
+        let Settings { until, rate, .. } = self.settings;
+        let count = (until * rate * (1.0 + 1e-12)).floor() as usize;
         // The motion goes on to its end, whether that is a sample or not.
-        for (sample, is_sample) in samples.map(|time| (time, true)).chain([(settings.until, false)]) {
-            while let Some(kink) = kinks.next_if(|kink| *kink <= sample) {
-                self.until(kink)?;
+        while self.kept <= count + 1 {
+            let sample = if self.kept > count { until } else { (self.kept as f64 / rate).min(until) };
+            while let Some(kink) = self.kinks.get(self.passed).copied().filter(|kink| *kink <= sample) {
+                if !self.until(kink, pauses)? {
+                    return Ok(());
+                }
+                let now = self.events[self.applied..].iter().take_while(|event| event.time <= kink).count();
+                let range = self.applied..self.applied + now;
+                self.applied = range.end;
+                self.passed += 1;
                 self.restart(|system, events, state| {
-                    while let Some(event) = events.get(applied).filter(|event| event.time <= kink) {
-                        system.change(event, state);
-                        applied += 1;
-                    }
+                    events[range].iter().for_each(|event| system.change(event, state));
                 });
             }
-            self.until(sample)?;
-            if is_sample && !self.sample(control) {
-                break;
+            if !self.until(sample, pauses)? {
+                return Ok(());
             }
+            let goes_on = self.kept > count || self.sample();
+            self.kept = if goes_on { self.kept + 1 } else { usize::MAX };
         }
         self.series.energy.drift = self.energy() - self.before;
         self.series.work = self.spent;
@@ -159,14 +215,12 @@ impl Run<'_> {
         self.series.energy.given += change;
     }
 
-    /// Puts all cables on the elements for slack ones once one is.
+    /// Puts all cables on the elements for slack ones.
     fn refine(&mut self) {
         let (Some(elements), time) = (self.slack, self.solver.time()) else { return };
-        if self.loose.contains(&true) && !self.system.is_refined(elements, &self.loose) {
-            let loose = self.loose.clone();
-            self.restart(|system, _, state| system.refine(time, elements, &loose, state));
-            self.count_elements();
-        }
+        let loose = self.loose.clone();
+        self.restart(|system, _, state| system.refine(time, elements, &loose, state));
+        self.count_elements();
     }
 
     fn count_elements(&mut self) {
@@ -183,9 +237,15 @@ impl Run<'_> {
         self.system.energy(&at, self.solver.state())
     }
 
-    fn until(&mut self, time: f64) -> Result<(), DynamicsError> {
+    /// Goes on to a time [s]; false where it pauses before, because cables need other elements.
+    fn until(&mut self, time: f64, pauses: bool) -> Result<bool, DynamicsError> {
         while time - self.solver.time() > 1e-12 * (1.0 + time) {
-            self.refine();
+            if self.is_to_refine() {
+                if pauses {
+                    return Ok(false);
+                }
+                self.refine();
+            }
             let stalled = DynamicsError::Stalled { time: self.solver.time() };
             let spent = self.solver.advance(&mut self.system, time).map_err(|_| stalled)?;
             let energy = &mut self.series.energy;
@@ -197,7 +257,7 @@ impl Run<'_> {
         }
         // Without the rounding of the steps.
         self.solver.set_time(time);
-        Ok(())
+        Ok(true)
     }
 
     /// Keeps the greatest tensions, and how far the platform is from its rest.
@@ -233,7 +293,7 @@ impl Run<'_> {
     }
 
     /// Keeps a sample and applies what the control decides there; false where it ends the motion.
-    fn sample(&mut self, control: &Control) -> bool {
+    fn sample(&mut self) -> bool {
         let state = self.solver.state();
         let n = state.len() / 2;
         let mut tensions = vec![[0.0; 2]; self.series.peaks.len()];
@@ -246,7 +306,7 @@ impl Run<'_> {
             velocity: Vector6::from_column_slice(&state[n..n + 6]),
             tensions,
         };
-        let command = control(&sample);
+        let command = (self.control)(&sample);
         self.series.samples.push(sample);
         let Command::Wrench(wrench) = command else { return false };
         if wrench != self.system.body.control {

@@ -174,7 +174,7 @@ impl Settings {
                 if mesh.is_exact(&material, (free.unstrained_length, &still), tension_at) {
                     break;
                 }
-                mesh = Mesh::equal(rule, 2 * mesh.elements());
+                mesh = Mesh::equal(rule, mesh.elements() + elements);
             }
             mesh
         });
