@@ -23,6 +23,7 @@ mod variable;
 
 use crate::error::AssessError;
 pub use cables::ChosenCable;
+use cables::left_laws;
 use cdpr_robot::Robot;
 use cdpr_study::StudyError;
 use demand::Demand;
@@ -52,6 +53,9 @@ pub struct Design {
     /// What a position error is and assumes, where there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub basis: Option<&'static str>,
+    /// What becomes of measured laws of the cables where types are chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_laws: Option<String>,
     /// Number of poses.
     pub poses: usize,
     /// The objective of the robot as it is, in the unit of the output; `None` where it is not held at
@@ -198,6 +202,7 @@ pub fn design(problem: &DesignProblem) -> Result<Design, AssessError> {
         output: problem.output,
         over: problem.over,
         basis: problem.needs(Goal::Position).then_some(BASIS),
+        left_laws: left_laws(&problem.types, &problem.variables, &problem.robot),
         poses: problem.poses.len(),
         before: before
             .as_ref()

@@ -41,8 +41,8 @@ pub struct Safety {
     pub tensions: Vec<f64>,
     /// Tension of each cable at the exit point [N].
     pub exit_tensions: Vec<f64>,
-    /// Least breaking force over greatest tension, and the index of that cable; `None` where no breaking
-    /// force is known.
+    /// Least breaking force over greatest tension, and the index of that cable; `None` where a breaking
+    /// force is not known.
     pub safety_factor: Option<(f64, usize)>,
     /// Every cable that breaks alone, in the order of their numbers, then every pair, if asked for.
     pub broken: Vec<Broken>,
@@ -71,7 +71,7 @@ pub struct Swing {
     /// Greatest tensions of the other cables that are out of limits.
     pub out_of_limits: Vec<OutOfLimits>,
     /// Least breaking force over greatest tension of the other cables, and the index of that cable; `None`
-    /// where no breaking force is known.
+    /// where a breaking force is not known.
     pub safety_factor: Option<(f64, usize)>,
     /// Whether P or an anchor point comes below the ground, as in [`BrokenRest::below_ground`].
     pub below_ground: bool,
@@ -102,7 +102,7 @@ pub struct BrokenRest {
     /// Tensions of the other cables that are out of limits.
     pub out_of_limits: Vec<OutOfLimits>,
     /// Least breaking force over greatest tension of the other cables, and the index of that cable; `None`
-    /// where no breaking force is known.
+    /// where a breaking force is not known.
     pub safety_factor: Option<(f64, usize)>,
     /// Whether P or an anchor point is below `ground_z`, or, where the file has none, below what robots stand
     /// on.

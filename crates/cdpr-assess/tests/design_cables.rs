@@ -168,6 +168,32 @@ fn the_front_of_choices_has_the_types_of_each_point() {
 }
 
 #[test]
+fn a_measured_law_stays_on_its_own_cable_and_is_said_to_leave_others() {
+    let robot = data("caroca-law");
+    let own = robot.cables[0].properties.clone();
+    assert!(own.law.is_some());
+    let of = |cables: Value| {
+        let mut file = with(caroca(), "/cables", cables);
+        file["variables"] = json!([]);
+        file.as_object_mut().unwrap().remove("cable_groups");
+        DesignProblem::from_json(&file.to_string(), Path::new("d.json"), robot.clone()).unwrap()
+    };
+    let same = json!({"name": "own", "section": own.section, "linear_density": own.linear_density,
+        "youngs_modulus": own.youngs_modulus});
+    let kept = cdpr_assess::design(&of(json!([same]))).unwrap();
+    assert_eq!(kept.left_laws, None);
+    assert_eq!(kept.best.unwrap().robot.cables[0].properties.law, own.law);
+    let left = cdpr_assess::design(&of(catalogue())).unwrap();
+    let words = left.left_laws.unwrap();
+    assert!(words.contains("the measured law that all cables have in the robot file"), "{words}");
+    assert_eq!(left.best.unwrap().robot.cables[0].properties.law, None);
+    // Linear cables lose nothing.
+    let linear =
+        DesignProblem::from_json(&caroca().to_string(), Path::new("d.json"), data("caroca")).unwrap();
+    assert_eq!(cdpr_assess::design(&linear).unwrap().left_laws, None);
+}
+
+#[test]
 fn wrong_types_are_refused_with_field_value_and_what_is_right() {
     for (field, value, words) in [
         ("/cables/1/name", json!("fibre 2.5"), "cables[1].name is fibre 2.5: expected another name"),

@@ -172,3 +172,21 @@ fn an_unstable_pose_is_refused() {
     let found = safety_at(&robot, WantedPose::at(&pose), &Load::none(), PAIRS);
     assert!(matches!(found, Err(StaticsError::Unstable { .. })), "{found:?}");
 }
+
+#[test]
+fn a_cable_without_breaking_force_leaves_no_safety_factor_while_it_is_whole() {
+    let mut robot = robot("caroca");
+    robot.cables.iter_mut().for_each(|cable| cable.properties.breaking_force = Some(1e4));
+    let found = |robot: &Robot| {
+        let wanted = Pose::at(0.0, 0.0, 1.75);
+        safety_at(robot, WantedPose::at(&wanted), &Load::none(), Breaks::default()).unwrap()
+    };
+    assert!(found(&robot).safety_factor.is_some());
+    robot.cables[2].properties.breaking_force = None;
+    let found = found(&robot);
+    assert_eq!(found.safety_factor, None);
+    for broken in &found.broken {
+        let factor = broken.rest.as_ref().unwrap().safety_factor;
+        assert_eq!(factor.is_some(), broken.cables == [2], "{:?}", broken.cables);
+    }
+}

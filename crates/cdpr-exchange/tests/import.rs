@@ -178,3 +178,32 @@ fn limits_that_replace_those_of_the_file_and_a_column_that_is_missing_are_named(
     let error = imported(&[("mine.csv", &without)], &all_options()).map(drop).unwrap_err().to_string();
     assert!(error.contains("axis_x is missing"), "{error}");
 }
+
+#[test]
+fn a_cable_of_the_catalogue_says_what_it_replaces_of_a_table_and_leaves_what_it_lacks() {
+    let table = "exit_x,exit_y,exit_z,anchor_x,anchor_y,anchor_z,diameter_mm,breaking_force_kN\n\
+                 -2,-1.5,3,0.2,-0.1,0,6,21\n2,1.5,3,-0.2,0.1,0,6,22\n";
+    let mut with = all_options();
+    let of = |options: &ImportOptions| imported(&[("plate.csv", table)], options).unwrap();
+    let found = of(&with);
+    let said = texts(&found, NoteKind::Assumed).join("\n");
+    assert!(
+        said.contains("diameters of 0.006 m") && said.contains("breaking forces of 21000 to 22000 N"),
+        "{said}"
+    );
+    assert!(said.contains("in the files"), "{said}");
+    let given = with.cable.as_ref().unwrap().properties.clone();
+    assert_eq!(found.robot.cables[1].properties, given);
+    // What the cable of the catalogue lacks stays.
+    let cable = with.cable.as_mut().unwrap();
+    (cable.properties.diameter, cable.properties.breaking_force) = (None, None);
+    let found = of(&with);
+    let kept =
+        found.robot.cables.iter().map(|cable| (cable.properties.diameter, cable.properties.breaking_force));
+    assert_eq!(kept.collect::<Vec<_>>(), [(Some(0.006), Some(21e3)), (Some(0.006), Some(22e3))]);
+    let said = texts(&found, NoteKind::Assumed).join("\n");
+    assert!(
+        said.contains("the breaking forces of the cables are those of the files, 21000 to 22000 N"),
+        "{said}"
+    );
+}

@@ -78,7 +78,7 @@ pub fn report_with(
     };
     let json = serde_json::to_string(&data).map_err(unreadable)?;
     let sections: Vec<Section> = [
-        Some(robot::section(&results.study.robot, &scene, region)),
+        Some(robot::section(&results.study, &scene, region)),
         Some(setup::section(results)),
         results::distributions(results, figures),
         results::surfaces(results, figures),

@@ -1,6 +1,6 @@
 //! The robot at the poses of a study, as points in space, as the view of the explorer takes them.
 
-use crate::text;
+use crate::text::{self, beyond_rounding};
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{Deflection, DirectProblem, Equilibrium, Load, StaticsError};
 use cdpr_study::{Study, StudyError};
@@ -153,13 +153,16 @@ impl ScenePose {
     fn new(robot: &Robot, part: &str, pose: Pose, nominal: &Deflection) -> Result<Self, StaticsError> {
         let rotated = if pose.quaternion() == [1.0, 0.0, 0.0, 0.0] { "" } else { ", rotated" };
         let unloaded = State::new(robot, &nominal.lengths, &nominal.unloaded.equilibrium)?;
+        let deflection_mm = beyond_rounding(1e3 * nominal.magnitude());
+        // What differs by rounding errors alone is not drawn as an arrow.
+        let loaded = if deflection_mm > 0.0 { &nominal.loaded } else { &nominal.unloaded };
         Ok(Self {
             name: format!("{} m{rotated}", text::point(pose.position.as_slice())),
             parts: vec![part.to_owned()],
-            loaded: State::new(robot, &nominal.lengths, &nominal.loaded.equilibrium)?,
+            loaded: State::new(robot, &nominal.lengths, &loaded.equilibrium)?,
             unloaded,
             lengths: nominal.lengths.clone(),
-            deflection_mm: 1e3 * nominal.magnitude(),
+            deflection_mm,
             pose,
         })
     }

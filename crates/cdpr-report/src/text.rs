@@ -73,6 +73,32 @@ pub(crate) fn wrench_words(load: &Load) -> Option<String> {
     (!words.is_empty()).then(|| words.join(" and "))
 }
 
+/// Displacements below a nanometre are rounding errors of two equilibria [mm].
+const ROUNDING_MM: f64 = 1e-6;
+
+/// A displacement [mm], zero where it is a rounding error.
+pub(crate) fn beyond_rounding(millimetres: f64) -> f64 {
+    if millimetres.abs() < ROUNDING_MM { 0.0 } else { millimetres }
+}
+
+/// What a load is called: a payload, a force or a moment where it is nothing else.
+pub(crate) fn load_word(load: &Load) -> &'static str {
+    let Wrench { force, moment } = load.wrench;
+    match (load.payload > 0.0, force != Vector3::zeros(), moment != Vector3::zeros()) {
+        (true, false, false) => "payload",
+        (false, true, false) => "force",
+        (false, false, true) => "moment",
+        _ => "load",
+    }
+}
+
+/// A load in words, as in `50 kg and the force (0, 0, −10) N`; `its own weight` without one.
+pub(crate) fn load_words(load: &Load) -> String {
+    let payload = (load.payload > 0.0).then(|| format!("{} kg", load.payload));
+    let words: Vec<String> = [payload, wrench_words(load)].into_iter().flatten().collect();
+    if words.is_empty() { "its own weight".to_owned() } else { words.join(" and ") }
+}
+
 /// Law in words. Its parameters are multiplied by `scale`.
 pub(crate) fn law(law: &Law, scale: f64) -> String {
     match *law {
@@ -130,6 +156,30 @@ pub(crate) fn fields(value: &impl Serialize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rounding_errors_are_no_displacement() {
+        assert_eq!([3e-13, -4e-7, 0.0].map(beyond_rounding), [0.0; 3]);
+        assert_eq!([2e-6, -0.5].map(beyond_rounding), [2e-6, -0.5]);
+    }
+
+    #[test]
+    fn a_load_has_the_words_of_its_parts() {
+        let of = |payload, force: [f64; 3], moment: [f64; 3]| Load {
+            payload,
+            wrench: Wrench { force: force.into(), moment: moment.into() },
+        };
+        let (none, down) = ([0.0; 3], [0.0, 0.0, -10.0]);
+        for (load, word, words) in [
+            (of(50.0, none, none), "payload", "50 kg"),
+            (of(0.0, down, none), "force", "the force (0, 0, \u{2212}10) N"),
+            (of(0.0, none, down), "moment", "the moment (0, 0, \u{2212}10) N m"),
+            (of(5.0, down, none), "load", "5 kg and the force (0, 0, \u{2212}10) N"),
+            (of(0.0, none, none), "load", "its own weight"),
+        ] {
+            assert_eq!((load_word(&load), load_words(&load).as_str()), (word, words));
+        }
+    }
 
     #[test]
     fn numbers_have_significant_digits_only() {

@@ -70,6 +70,29 @@ fn the_report_begins_with_the_verdict_and_says_how_to_run_the_study_again() {
 }
 
 #[test]
+fn a_load_that_is_a_force_is_called_so() {
+    let small = |change: &dyn Fn(&mut serde_json::Value)| {
+        page(&crate::common::caroca(|study, _| {
+            for field in ["surfaces", "sensitivity"] {
+                study.as_object_mut().unwrap().remove(field);
+            }
+            let samplings = study["samplings"].as_object_mut().unwrap();
+            samplings.retain(|_, of| of.get("pose").is_some());
+            samplings.values_mut().for_each(|of| of["observations"] = json!(16));
+            change(study);
+        }))
+    };
+    let payload = small(&|_| ());
+    assert!(payload.contains(" with payload") && payload.contains("Tension, payload [N]"));
+    let force = small(&|study| {
+        study["payload"] = json!(0);
+        study["force"] = json!([0, 0, -500]);
+    });
+    assert!(force.contains(" with force") && force.contains("Tension, force [N]"));
+    assert!(!force.contains("payload [N]") && !force.contains("with payload"));
+}
+
+#[test]
 fn nothing_is_loaded_from_outside() {
     for results in [crate::common::caroca(|_, _| ()), crate::common::cogiro()] {
         let html = page(&results);

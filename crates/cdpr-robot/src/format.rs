@@ -1,9 +1,11 @@
 //! The robot file, `cdpr-robot/1`: JSON, SI units, base frame with z up. Described by [`json_schema`].
 
 pub(crate) mod cable_file;
+mod inertia;
 pub mod library;
 
 use crate::error::RobotError;
+use crate::format::inertia::InertiaEntry;
 use crate::freedoms::Plane;
 use crate::gravity::Gravity;
 use crate::json::from_json;
@@ -12,7 +14,7 @@ use crate::limits::{CableEnd, OwnLimits, TensionDistribution, TensionLimits, Ten
 use crate::robot::provenance::{Grade, Provenance};
 use crate::robot::{CableProperties, Platform, Pulley, Robot, RobotCable};
 use cdpr_cable::{CableError, PiecewiseLaw};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -86,9 +88,9 @@ struct PlatformEntry {
     /// Centre of mass in the platform frame [m].
     center_of_mass: [f64; 3],
     /// Inertia about the centre of mass in the platform frame, three rows of three [kg m²]; for natural
-    /// frequencies.
+    /// frequencies. Of a planar robot a number, the moment about the normal of its plane, is enough.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    inertia: Option<[[f64; 3]; 3]>,
+    inertia: Option<InertiaEntry>,
     /// Whether it is a point mass: its rotation is held, and all anchor points are [0, 0, 0].
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     point: bool,
@@ -230,7 +232,7 @@ impl Robot {
             platform: PlatformEntry {
                 mass: self.platform.mass,
                 center_of_mass: self.platform.center_of_mass.into(),
-                inertia: self.platform.inertia.map(|inertia| inertia.transpose().into()),
+                inertia: self.platform.inertia.map(|matrix| InertiaEntry::Tensor(matrix.transpose().into())),
                 point: self.platform.point,
             },
             plane: self.plane,
@@ -320,7 +322,7 @@ impl RobotFile {
             platform: Platform {
                 mass: self.platform.mass,
                 center_of_mass: Vector3::from(self.platform.center_of_mass),
-                inertia: self.platform.inertia.map(|rows| Matrix3::from(rows).transpose()),
+                inertia: self.platform.inertia.map(|given| given.tensor(self.plane)).transpose()?,
                 point: self.platform.point,
             },
             plane: self.plane,

@@ -23,6 +23,15 @@ pub enum Plane {
 }
 
 impl Plane {
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Xy => "xy",
+            Self::Xz => "xz",
+            Self::Yz => "yz",
+        }
+    }
+
     /// Index of the axis at right angles to the plane.
     pub fn normal(self) -> usize {
         match self {

@@ -19,6 +19,7 @@ pub use doubt::{Doubt, Doubts, frame, more_than_half_failed, nothing_held};
 pub use file::{reference, robot};
 pub use layout::FRAME;
 pub use typed::{
-    angles, in_ground, lengths, lengths_at, load, mass, modulus, on_platform, position, quaternion, wrench,
+    angles, in_ground, lengths, lengths_at, load, mass, modulus, on_platform, out_of_plane, position,
+    quaternion, wrench,
 };
 pub use uncertain::{deviation, farthest, noise};

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use cdpr_robot::{Doubt, Parameter, Robot, plausible};
+use cdpr_robot::{Doubt, Parameter, Plane, Pose, Robot, plausible, rotation_by_angles};
 
 fn named(name: &str) -> Robot {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/robots");
@@ -89,4 +89,27 @@ fn the_assumed_inertia_moves_with_no_frame_and_grows_with_the_size() {
         let inertia = other.assumed_inertia()[(0, 0)];
         assert!((inertia / (own * share * share) - 1.0).abs() < 1e-12, "{share}: {inertia} {own}");
     }
+}
+
+#[test]
+fn a_pose_out_of_the_plane_of_a_planar_robot_is_questioned() {
+    let mut robot = named("caroca");
+    robot.plane = Some(Plane::Xz);
+    for cable in &mut robot.cables {
+        cable.exit_point.y = 0.5;
+        cable.anchor_point.y = 0.1;
+    }
+    let asked = |pose: &Pose| plausible::out_of_plane(&robot, "--pose", pose);
+    assert_eq!(asked(&Pose::at(0.3, 0.4, 1.0)), None);
+    assert_eq!(asked(&Pose::at(0.3, 0.401, 1.0)), None);
+    let doubt = asked(&Pose::at(0.3, 0.0, 1.0)).unwrap();
+    assert!(doubt.why.starts_with("out of the plane xz of its cables, where y is 0.4 m"), "{doubt}");
+    assert!(doubt.meant.starts_with("y = 0.4 m"), "{doubt}");
+    let turned = |angles| Pose { rotation: rotation_by_angles(angles), ..Pose::at(0.3, 0.4, 1.0) };
+    assert_eq!(asked(&turned([0.0, 30.0, 0.0])), None);
+    let doubt = asked(&turned([10.0, 0.0, 0.0])).unwrap();
+    assert_eq!(doubt.value, "turned out of the plane by 10 degrees");
+    // In space every pose is as good.
+    robot.plane = None;
+    assert_eq!(plausible::out_of_plane(&robot, "--pose", &Pose::at(0.3, 0.0, 1.0)), None);
 }

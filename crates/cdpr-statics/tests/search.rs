@@ -1,7 +1,7 @@
 //! Stability, certificates, many starts and continuation.
 
 use crate::common::{caroca, cogiro};
-use cdpr_robot::{Platform, Pose, Robot, RobotCable, TensionLimits, Vector3, Wrench};
+use cdpr_robot::{Plane, Platform, Pose, Robot, RobotCable, TensionLimits, Vector3, Wrench};
 use cdpr_statics::continuation::{LossKind, Setting, follow};
 use cdpr_statics::multistart::Starts;
 use cdpr_statics::{
@@ -89,6 +89,21 @@ fn many_starts_find_the_platform_on_its_head_and_hanging() {
         DirectProblem::new(&robot, &lengths, &Load::none()).unwrap().equilibria(&starts).unwrap(),
         all
     );
+}
+
+#[test]
+fn starts_of_a_planar_robot_stay_in_its_plane() {
+    let mut robot = tripod(0.1, 1.0, 300.0);
+    robot.plane = Some(Plane::Xz);
+    let lengths = tightened(&robot, 1e-3);
+    let starts = Starts { center: Pose::at(0.0, 0.0, 0.0), reach: 0.2, rotation: 1.0, count: 8 };
+    let all = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap().equilibria(&starts).unwrap();
+    assert!(!all.found.is_empty());
+    for found in &all.found {
+        let pose = &found.solution.equilibrium.pose;
+        assert_eq!(pose.position.y, 0.0);
+        assert!((pose.rotation * Vector3::y() - Vector3::y()).norm() < 1e-12);
+    }
 }
 
 #[test]

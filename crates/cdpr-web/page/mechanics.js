@@ -164,12 +164,14 @@ export class Mechanics {
   }
 }
 
-function between(unloaded, loaded) {
+// Displacements [m] and rotations [rad] below it are rounding errors of two equilibria.
+const ROUNDING = 1e-9;
+
+/** How the load moves the platform from one equilibrium to the other: exactly nothing up to rounding errors. */
+export function between(unloaded, loaded) {
   if (!unloaded) return { displacement: null, rms: null, rotation: null };
-  const displacement = [0, 1, 2].map((k) => loaded.pose[k] - unloaded.pose[k]);
-  return {
-    displacement,
-    rms: Math.hypot(...displacement),
-    rotation: vectorBetween(unloaded.pose.slice(3), loaded.pose.slice(3)),
-  };
+  const beyond = (vector) => (Math.hypot(...vector) < ROUNDING ? [0, 0, 0] : vector);
+  const displacement = beyond([0, 1, 2].map((k) => loaded.pose[k] - unloaded.pose[k]));
+  const rotation = beyond(vectorBetween(unloaded.pose.slice(3), loaded.pose.slice(3)));
+  return { displacement, rms: Math.hypot(...displacement), rotation };
 }

@@ -25,6 +25,7 @@ mod folder;
 mod forty_mistakes;
 mod grammar;
 mod hysteresis;
+mod lengths;
 mod library;
 mod models;
 mod modes;

@@ -110,11 +110,21 @@ fn cable_type(spec: &CableSpec) -> Result<CableType, InField> {
 }
 
 impl CableType {
-    /// Gives cable `i` this type; its greatest tension is at most the breaking force.
+    /// Whether cable `i` of a robot is of this type already, whatever its measured law.
+    fn is_that_of(&self, robot: &Robot, i: usize) -> bool {
+        let (one, other) = (&self.properties, &robot.cables[i].properties);
+        let numbers = |of: &CableProperties| [of.section, of.linear_density, of.youngs_modulus];
+        numbers(one) == numbers(other)
+    }
+
+    /// Gives cable `i` this type; its greatest tension is at most the breaking force. A measured law stays where
+    /// the type is that of the robot's own cable.
     pub(crate) fn put_on(&self, robot: &mut Robot, i: usize) {
         let breaking = self.properties.breaking_force.filter(|force| *force < robot.limits(i).max);
+        let keeps_law = self.is_that_of(robot, i);
         let cable = &mut robot.cables[i];
-        cable.properties = self.properties.clone();
+        let law = cable.properties.law.take().filter(|_| keeps_law);
+        cable.properties = CableProperties { law, ..self.properties.clone() };
         if breaking.is_some() {
             cable.tension_limits.max = breaking;
         }
@@ -131,6 +141,29 @@ impl CableType {
             cost: self.cost.map(|cost| cost * length),
         }
     }
+}
+
+/// What is said of cables with a measured law that may become ones of a type, which have none.
+pub(crate) fn left_laws(types: &[CableType], variables: &[Variable], robot: &Robot) -> Option<String> {
+    let loses = |i: &usize| {
+        robot.cables[*i].properties.law.is_some() && !types.iter().all(|one| one.is_that_of(robot, *i))
+    };
+    let mut cables: Vec<usize> = variables.iter().flat_map(|of| &of.cables).copied().filter(loses).collect();
+    cables.sort_unstable();
+    if cables.is_empty() {
+        return None;
+    }
+    let all = robot.cables.len();
+    let numbers: Vec<String> = cables.iter().map(|i| (i + 1).to_string()).collect();
+    let which = match numbers.len() {
+        1 => format!("cable {} has", numbers[0]),
+        count if count == all => "all cables have".to_owned(),
+        _ => format!("cables {} have", numbers.join(", ")),
+    };
+    Some(format!(
+        "The types of cable are linear, by their youngs_modulus: the measured law that {which} in the robot file is \
+         not that of other cables, and only the robot as it is has it."
+    ))
 }
 
 /// The type that a variable has with this value; `None` for one of parameters and for a robot as it is.

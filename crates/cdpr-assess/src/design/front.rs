@@ -12,7 +12,7 @@
 //! not convex are found, too. The multiplier μ of the bound is the rate of exchange, `df/dε = -μ`. Where
 //! nothing has bounds, every configuration is evaluated, and the front is that of all of them.
 
-use crate::design::cables::ChosenCable;
+use crate::design::cables::{ChosenCable, left_laws};
 use crate::design::file::Over;
 use crate::design::goal::{Goal, sense};
 use crate::design::position::BASIS;
@@ -34,6 +34,9 @@ pub struct Front {
     /// What a position error is and assumes, where there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub basis: Option<&'static str>,
+    /// What becomes of measured laws of the cables where types are chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_laws: Option<String>,
     /// Number of poses.
     pub poses: usize,
     /// Combinations of the choices, all of them evaluated; 1 without choices.
@@ -99,6 +102,7 @@ pub fn front(problem: &DesignProblem) -> Result<Front, AssessError> {
         outputs: [problem.output, second],
         over: [problem.over, over],
         basis: problem.needs(Goal::Position).then_some(BASIS),
+        left_laws: left_laws(&problem.types, &problem.variables, &problem.robot),
         poses: problem.poses.len(),
         configurations: first.found.len() / first.each,
         starts: first.starts,

@@ -3,10 +3,11 @@
 //! With J, the inertia about the centre of mass of as many equal masses at the anchor points as there are
 //! cables, of the mass of the platform together, `tr I / tr J` is the square of the radius of gyration over
 //! the distance of the anchor points (mean of squares). It is 1/3 of a solid box with its anchors at the
-//! corners, 1/5 of the ball inside it, and 1 of a shell with its anchors on it.
+//! corners, 1/5 of the ball inside it, and 1 of a shell with its anchors on it. Of a planar robot the moments about
+//! the normal of its plane are compared alone, those of the points from their distances in the plane.
 
 use super::{Findings, Severity};
-use cdpr_robot::significant;
+use cdpr_robot::{RobotCable, significant};
 use std::ops::Range;
 
 /// Usual `tr I / tr J`: robots of the library have 0.38 to 1.04. A factor of ten leaves it.
@@ -24,24 +25,33 @@ impl Findings<'_> {
             return;
         }
         let Some(inertia) = platform.inertia else { return };
-        let squares = self.robot.cables.iter();
-        let squares = squares.map(|cable| (cable.anchor_point - platform.center_of_mass).norm_squared());
-        let distance = (squares.sum::<f64>() / self.robot.cables.len() as f64).sqrt();
+        let normal = self.robot.plane.map(|plane| plane.normal());
+        let square = |cable: &RobotCable| {
+            let mut apart = cable.anchor_point - platform.center_of_mass;
+            normal.iter().for_each(|k| apart[*k] = 0.0);
+            apart.norm_squared()
+        };
+        let squares = self.robot.cables.iter().map(square).sum::<f64>();
+        let distance = (squares / self.robot.cables.len() as f64).sqrt();
         if distance < TOGETHER {
             return;
         }
-        let trace = inertia.trace();
-        let usual = 2.0 * platform.mass * distance * distance;
-        if USUAL.contains(&(trace / usual)) {
+        // A point has twice its moment in the trace.
+        let (moment, times, what) = match normal {
+            Some(k) => (inertia[(k, k)], 1.0, "the moment about the normal of the plane"),
+            None => (inertia.trace(), 2.0, "the sum of its diagonal"),
+        };
+        let usual = times * platform.mass * distance * distance;
+        if USUAL.contains(&(moment / usual)) {
             return;
         }
-        let radius = (0.5 * trace / platform.mass).sqrt();
+        let radius = (moment / times / platform.mass).sqrt();
         let [low, high] = [USUAL.start, USUAL.end].map(|ratio| significant(ratio * usual, 2));
         let text = |value: f64| significant(value, 4);
         self.add(
             Severity::Warning,
             "platform.inertia",
-            format!("{} kg m\u{b2}, the sum of its diagonal", text(trace)),
+            format!("{} kg m\u{b2}, {what}", text(moment)),
             &format!(
                 "with platform.mass, {} kg, it makes a radius of gyration of {} m; the anchor points are {} \
                  m from the centre of mass (root mean square)",

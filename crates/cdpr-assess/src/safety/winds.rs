@@ -48,8 +48,8 @@ pub struct InWind {
     pub turned: f64,
     /// Tensions that are out of limits.
     pub out_of_limits: Vec<OutOfLimits>,
-    /// Least breaking force over greatest tension, and the index of that cable; `None` where no breaking
-    /// force is known.
+    /// Least breaking force over greatest tension, and the index of that cable; `None` where a
+    /// breaking force is not known.
     pub safety_factor: Option<(f64, usize)>,
     /// Greatest tension over what the cable may bear, its limit or its breaking force.
     pub share_of_limit: f64,
@@ -280,11 +280,13 @@ fn share_of_limit(robot: &Robot, tensions: &[[f64; 2]]) -> f64 {
     tensions.iter().enumerate().map(of_cable).fold(0.0, f64::max)
 }
 
-/// Least breaking force over greatest tension of these cables.
+/// Least breaking force over greatest tension of these cables; `None` where one of them has no breaking force, which
+/// may be the one that breaks first.
 pub(super) fn safety_factor(robot: &Robot, cables: &[usize], tensions: &[[f64; 2]]) -> Option<(f64, usize)> {
     let factor = |i: &usize| {
         let force = robot.cables[*i].properties.breaking_force?;
         Some((force / tensions[*i][0].max(tensions[*i][1]), *i))
     };
-    cables.iter().filter_map(factor).min_by(|a, b| a.0.total_cmp(&b.0))
+    let factors: Vec<_> = cables.iter().map(factor).collect::<Option<_>>()?;
+    factors.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))
 }

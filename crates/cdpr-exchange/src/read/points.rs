@@ -70,10 +70,11 @@ pub(crate) fn read(file: &str, text: &str) -> Result<Draft, ExchangeError> {
         let vector =
             |[x, y, z]: [&str; 3]| Ok::<_, ExchangeError>(Vector3::new(need(x)?, need(y)?, need(z)?));
         let radius = number("radius")?.filter(|radius| *radius != 0.0);
+        let (diameter, breaking_force) = (number("diameter")?, number("breaking_force")?);
         let properties = match (number("section")?, number("linear_density")?, number("youngs_modulus")?) {
             (Some(section), Some(density), Some(modulus)) => Some(CableProperties {
-                diameter: number("diameter")?,
-                breaking_force: number("breaking_force")?,
+                diameter,
+                breaking_force,
                 ..CableProperties::linear(section, density, modulus)
             }),
             (None, None, None) => None,
@@ -93,6 +94,8 @@ pub(crate) fn read(file: &str, text: &str) -> Result<Draft, ExchangeError> {
             min: number("tension_min")?,
             max: number("tension_max")?,
             properties,
+            diameter,
+            breaking_force,
             ..DraftCable::default()
         });
     }

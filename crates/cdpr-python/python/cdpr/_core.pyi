@@ -2707,7 +2707,7 @@ class Safety(Generic[_R]):
         """Tensions at the exit points there [N], (k, n)."""
     @property
     def safety_factor(self) -> _Floats:
-        """Least breaking force over greatest tension, (k,); NaN where no breaking force is known."""
+        """Least breaking force over greatest tension, (k,); NaN where a breaking force is not known."""
     @property
     def swing_moved(self) -> _Floats:
         """Greatest distance of the platform from the pose in the motion that follows [m], (k,); NaN unless

@@ -6,7 +6,7 @@ use crate::drawing::style::{
     self, Area, BLUE, DrawingError, GREY, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, font, px,
 };
 use crate::error::ReportError;
-use crate::text::digits;
+use crate::text::{beyond_rounding, digits};
 use cdpr_assess::{Bands, PathPose};
 use cdpr_robot::{Robot, shown};
 use cdpr_statics::Load;
@@ -118,7 +118,7 @@ fn quantities(robot: &Robot, load: &Load, poses: &[Option<PathPose>]) -> Result<
     if *load != Load::none() {
         let magnitude = |pose: &PathPose| {
             let std = of(pose.bands.as_ref(), |bands| Some(1e3 * bands.magnitude?));
-            Some((1e3 * pose.deflection.magnitude(), std))
+            Some((beyond_rounding(1e3 * pose.deflection.magnitude()), std))
         };
         all.push(one("|dp| [mm]", curve("deflection", &magnitude)?));
     }

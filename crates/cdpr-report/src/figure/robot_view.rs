@@ -8,7 +8,7 @@ use crate::drawing::style::{
 };
 use crate::error::ReportError;
 use crate::scene::{Scene, State};
-use crate::text::{number, wrench_words};
+use crate::text::{load_words, number};
 use cdpr_robot::Axis;
 use cdpr_study::Study;
 use plotters::prelude::*;
@@ -37,9 +37,8 @@ pub fn robot_view(study: &Study) -> Result<String, ReportError> {
     let tensions = poses.iter().flat_map(|(pose, _)| pose.loaded.cables.iter().map(|cable| cable.tension));
     let Range { start: least, end: greatest } = extent(tensions);
     let sag = poses.iter().map(|(pose, _)| pose.loaded.greatest_sag_mm()).fold(0.0, f64::max);
-    let borne = wrench_words(&study.file.load()).map(|words| format!(" and {words}")).unwrap_or_default();
     let heading = Heading {
-        title: &format!("{} under {} kg{borne}, to scale", study.robot.name, study.file.payload),
+        title: &format!("{} under {}, to scale", study.robot.name, load_words(&study.file.load())),
         lines: &[format!(
             "tensions at the platform {} N to {} N; cables sag by {} mm at most",
             number(least, 0),

@@ -5,7 +5,7 @@ use crate::scene::{Scene, ScenePose};
 use crate::text;
 use cdpr_assess::FoundRegion;
 use cdpr_robot::{Robot, Vector3};
-use cdpr_study::StudyError;
+use cdpr_study::{Study, StudyError};
 use maud::{Markup, html};
 use serde::Serialize;
 use std::collections::HashMap;
@@ -38,18 +38,19 @@ impl RegionInSpace {
 }
 
 pub(crate) fn section(
-    robot: &Robot,
+    study: &Study,
     scene: &Result<Scene, StudyError>,
     region: Option<&FoundRegion>,
 ) -> Section {
+    let load = text::load_word(&study.file.load());
     let body = match scene {
-        Ok(scene) => html! { (view(robot, scene, region)) (offer()) (cables(scene)) },
+        Ok(scene) => html! { (view(&study.robot, scene, region, load)) (offer()) (cables(scene, load)) },
         Err(error) => html! { p.note { "The robot cannot be drawn: " (error) "." } (offer()) },
     };
     Section::new("robot", "The robot", body)
 }
 
-fn view(robot: &Robot, scene: &Scene, region: Option<&FoundRegion>) -> Markup {
+fn view(robot: &Robot, scene: &Scene, region: Option<&FoundRegion>, load: &str) -> Markup {
     let alt = format!(
         "{} in three dimensions with its {} sagging cables; the tables below hold its numbers",
         robot.name,
@@ -64,7 +65,7 @@ fn view(robot: &Robot, scene: &Scene, region: Option<&FoundRegion>) -> Markup {
                 fieldset {
                     legend { "Load" }
                     label { input type="radio" name="state" value="unloaded"; " own weight" }
-                    label { input type="radio" name="state" value="loaded" checked; " with payload" }
+                    label { input type="radio" name="state" value="loaded" checked; " with " (load) }
                 }
                 label { "Sag drawn " output id="sag-times" for="sag" { "\u{d7}1" }
                     input type="range" id="sag" min="0" max="9" step="1" value="0"
@@ -115,13 +116,14 @@ pub(crate) fn live(robot: &Robot) -> Markup {
     }
 }
 
-fn cables(scene: &Scene) -> Markup {
+fn cables(scene: &Scene, load: &str) -> Markup {
+    let tension = format!("Tension, {load} [N]");
     let head = [
         "Cable",
         "Unstrained length [m]",
         "Tension, own weight [N]",
         "Sag [mm]",
-        "Tension, payload [N]",
+        tension.as_str(),
         "Sag [mm]",
     ];
     let rows = |pose: &ScenePose| -> Vec<Vec<Markup>> {

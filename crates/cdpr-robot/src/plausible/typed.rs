@@ -21,6 +21,10 @@ const NEARLY_LEVEL: f64 = 0.985;
 const TURN: f64 = 360.0;
 /// Depth below the ground that is an error of surveying, over the size of the frame.
 const SURVEYED: f64 = 1e-4;
+/// Distance of a pose from the plane of the cables over the size of the frame, up to which it is in the plane.
+const OUT_OF_PLANE: f64 = 0.01;
+/// Angle by which a platform is turned out of the plane by rounding of its quaternion, at most [rad].
+const OUT_OF_PLANE_TURN: f64 = 0.01;
 /// What cables may stretch: beyond it two of them do not reach each other's exit points.
 const STRETCH: f64 = 1.2;
 /// Parts of a half turn, and how near an angle in radians is typed [rad]: 3.14 for a half turn, but 0.5236
@@ -91,6 +95,45 @@ pub fn in_ground(robot: &Robot, quantity: &str, pose: &Pose) -> Option<Doubt> {
                 four_digits(ground)
             ),
             format!("z of {} m or more", four_digits(pose.position.z + ground - lowest)),
+        )
+    })
+}
+
+/// A pose of a planar robot at which its cables leave the plane in which it moves, or its platform is turned out
+/// of it.
+pub fn out_of_plane(robot: &Robot, quantity: &str, pose: &Pose) -> Option<Doubt> {
+    let plane = robot.plane?;
+    let (normal, cables) = (plane.normal(), &robot.cables);
+    let axis = ["x", "y", "z"][normal];
+    // A platform whose frame is another one than that of the base has one of its axes there all the same.
+    let nearest = (0..3).map(|k| pose.rotation.matrix()[(normal, k)].abs()).fold(0.0, f64::max);
+    if nearest < OUT_OF_PLANE_TURN.cos() {
+        let angle = four_digits(nearest.min(1.0).acos().to_degrees());
+        return Some(Doubt::new(
+            quantity,
+            format!("turned out of the plane by {angle} degrees"),
+            format!("the platform moves in the plane {}", plane.name()),
+            format!("a rotation about {axis} alone"),
+        ));
+    }
+    let offsets = cables.iter().map(|of| of.exit_point[normal] - (pose.rotation * of.anchor_point)[normal]);
+    let offsets: Vec<f64> = offsets.collect();
+    let at = offsets.iter().sum::<f64>() / offsets.len() as f64;
+    // Cables may be side by side.
+    let apart =
+        offsets.iter().map(|offset| (offset - at).abs()).fold(OUT_OF_PLANE * frame_size(robot), f64::max);
+    let off = pose.position[normal] - at;
+    (off.abs() > apart).then(|| {
+        Doubt::new(
+            quantity,
+            format!("at {axis} = {} m", four_digits(pose.position[normal])),
+            format!(
+                "out of the plane {} of its cables, where {axis} is {} m, by {} m",
+                plane.name(),
+                four_digits(at),
+                four_digits(off.abs())
+            ),
+            format!("{axis} = {} m; a table of poses may leave {axis} out", four_digits(at)),
         )
     })
 }

@@ -88,7 +88,7 @@ impl DirectProblem<'_> {
         starts.validate()?;
         let mut equilibria = Equilibria { found: Vec::new(), failed: Vec::new() };
         for index in 0..starts.count {
-            let start = starts.pose(index);
+            let start = self.allowed(&starts.center, starts.pose(index));
             let any = self.with_unstable(Unstable::Accepted).direct(DirectStart::Pose(&start));
             // What Newton's method found may be uphill.
             if any.as_ref().is_ok_and(|solution| !solution.stability.is_stable()) {
@@ -103,17 +103,32 @@ impl DirectProblem<'_> {
     }
 }
 
+impl DirectProblem<'_> {
+    /// A start without motions that the platform cannot make: no search leads back from there.
+    fn allowed(&self, center: &Pose, start: Pose) -> Pose {
+        let freedoms = self.robot().freedoms();
+        if freedoms.are_all() {
+            return start;
+        }
+        let motion = freedoms.of_vector(&center.motion_to(&start));
+        center.moved(motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into())
+    }
+
+    /// Whether two solutions are the same equilibrium.
+    pub fn is_same(&self, one: &DirectSolution, other: &DirectSolution) -> bool {
+        let motion = one.equilibrium.pose.motion_to(&other.equilibrium.pose);
+        motion.fixed_rows::<3>(0).norm() <= SAME * self.size()
+            && motion.fixed_rows::<3>(3).norm() * self.characteristic_length() <= SAME * self.size()
+    }
+}
+
 impl Equilibria {
     fn add(&mut self, problem: &DirectProblem, found: Result<DirectSolution, StaticsError>) {
         let solution = match found {
             Ok(solution) => solution,
             Err(error) => return self.failed.push(error),
         };
-        let same = |found: &&mut Found| {
-            let motion = found.solution.equilibrium.pose.motion_to(&solution.equilibrium.pose);
-            motion.fixed_rows::<3>(0).norm() <= SAME * problem.size()
-                && motion.fixed_rows::<3>(3).norm() * problem.characteristic_length() <= SAME * problem.size()
-        };
+        let same = |found: &&mut Found| problem.is_same(&found.solution, &solution);
         match self.found.iter_mut().find(same) {
             Some(found) => found.hits += 1,
             None => self.found.push(Found { solution, hits: 1 }),

@@ -124,8 +124,10 @@ impl Recommendation {
             }
         } else {
             // Shares below that are no lead.
-            let leads = |of: &&RecommendedIndex| {
-                self.basis == Basis::Student || of.value.is_none_or(|share| share >= MATTERS)
+            let leads = |of: &&RecommendedIndex| match self.basis {
+                Basis::Student => true,
+                Basis::Ranks => of.value.is_some_and(|share| share >= MATTERS),
+                _ => of.value.is_none_or(|share| share >= MATTERS),
             };
             let leading: Vec<&str> =
                 self.inputs.iter().take(3).filter(leads).map(|of| of.input.as_str()).collect();

@@ -112,8 +112,9 @@ fn first_turned(name: &str, poses: &[PoseSpec]) -> Option<Doubt> {
 
 fn first_far(robot: &Robot, name: &str, positions: &[[f64; 3]]) -> Option<Doubt> {
     let doubt = |&[x, y, z]: &[f64; 3]| {
-        let far = plausible::position(robot, name, &Vector3::new(x, y, z));
-        far.or_else(|| plausible::in_ground(robot, name, &Pose::at(x, y, z)))
+        let (far, pose) = (plausible::position(robot, name, &Vector3::new(x, y, z)), Pose::at(x, y, z));
+        far.or_else(|| plausible::in_ground(robot, name, &pose))
+            .or_else(|| plausible::out_of_plane(robot, name, &pose))
     };
     positions.iter().find_map(doubt)
 }

@@ -30,6 +30,11 @@ impl GridSpan {
     /// The same of a box.
     pub const IN_BOX: usize = 11;
 
+    /// Whether nothing is said of it.
+    fn is_left_out(&self) -> bool {
+        self.min.is_none() && self.max.is_none() && self.points.is_none_or(|points| points == 1)
+    }
+
     /// Whether it is a single coordinate.
     fn is_point(&self) -> bool {
         self.points == Some(1) || self.min.is_some() && self.min == self.max
@@ -98,17 +103,23 @@ impl Grid {
     /// The positions between these ends along x, y and z. A missing end is that of the frame, the ranges of the
     /// exit points; where all exit points are at about one height, heights begin at the floor of the base
     /// frame, z = 0. Missing numbers of positions are [`GridSpan::IN_PLANE`] where the region is a plane or a
-    /// line, else [`GridSpan::IN_BOX`].
+    /// line, else [`GridSpan::IN_BOX`]. A planar robot stays in its plane where nothing is said of that axis.
     ///
     /// # Errors
     /// [`StudyError::Setting`] where the exit points do not span a missing range, and as [`Grid::new`].
     pub fn within(robot: &Robot, spans: [GridSpan; 3]) -> Result<Self, StudyError> {
         let frame = frame(robot);
         let size = frame.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
-        let is_flat = spans.iter().any(GridSpan::is_point);
+        // The frame says little about the plane of a planar robot: its pulleys may be beside it.
+        let plane = robot.plane_offset().filter(|(normal, _)| spans[*normal].is_left_out());
+        let is_flat = plane.is_some() || spans.iter().any(GridSpan::is_point);
         let usual = if is_flat { GridSpan::IN_PLANE } else { GridSpan::IN_BOX };
         let mut axes = [GridAxis { min: 0.0, max: 0.0, points: 1 }; 3];
         for ((axis, span), [low, high]) in Axis::ALL.into_iter().zip(spans).zip(frame) {
+            if let Some((_, at)) = plane.filter(|(normal, _)| *normal == axis.index()) {
+                axes[axis as usize] = GridAxis { min: at, max: at, points: 1 };
+                continue;
+            }
             let flat = high - low < FLAT * size;
             let low = if flat && axis == Axis::Z { 0.0 } else { low };
             if (span.min.is_none() || span.max.is_none()) && high - low < FLAT * size {
@@ -192,6 +203,35 @@ mod tests {
         assert_eq!((poses[0], poses[1]), (Pose::at(-0.3, 0.0, 2.0), Pose::at(-0.3, 0.0, 3.0)));
         assert_eq!(poses[5], Pose::at(0.1, 0.0, 3.0));
         assert_eq!(grid.normal(), Some(Axis::Y));
+    }
+
+    #[test]
+    fn the_grid_of_a_planar_robot_is_in_its_plane_unless_another_coordinate_is_stated() {
+        let robot = planar();
+        let along = |min, max, points| GridSpan { min: Some(min), max: Some(max), points: Some(points) };
+        let [x, z] = [along(0.5, 1.5, 3), along(1.0, 1.0, 1)];
+        let grid = Grid::within(&robot, [x, GridSpan::default(), z]).unwrap();
+        assert_eq!((grid.count(), grid.pose(0)), (3, Pose::at(0.5, 0.4, 1.0)));
+        let stated = Grid::within(&robot, [x, along(0.1, 0.1, 1), z]).unwrap();
+        assert_eq!(stated.pose(0), Pose::at(0.5, 0.1, 1.0));
+        assert_eq!(Grid::within(&robot, [GridSpan::default(); 3]).unwrap().normal(), Some(Axis::Y));
+    }
+
+    /// A robot in the plane xz, its anchor points at y = 0.1 m and its exit points at y = 0.5 m.
+    fn planar() -> Robot {
+        let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+        let cable = |[x, z]: [f64; 2]| {
+            let [a, c] = [0.1 * (0.5 * x - 0.5), 0.08 * (0.5 - 0.5 * z)];
+            format!("{{\"exit_point\": [{x}, 0.5, {z}], \"anchor_point\": [{a}, 0.1, {c}]}}")
+        };
+        let text = format!(
+            "{{\"format\": \"cdpr-robot/1\", \"name\": \"wall\", \"plane\": \"xz\", \"gravity\": 9.81,
+            \"platform\": {{\"mass\": 1.2, \"center_of_mass\": [0, 0, 0]}},
+            \"cable\": {{\"diameter\": 0.001, \"youngs_modulus\": 5e10, \"linear_density\": 0.0006}},
+            \"tension_limits\": {{\"min\": 5, \"max\": 150}}, \"cables\": [{}]}}",
+            corners.map(cable).join(", ")
+        );
+        Robot::from_json(&text).unwrap()
     }
 
     #[test]

@@ -17,6 +17,7 @@ import { undoStep } from "../dom.js";
 import { observationsCsv } from "../export.js";
 import { fieldText, parseNumber } from "../numbers.js";
 import { groundWords, notHeld } from "../panels/stage.js";
+import { between } from "../mechanics.js";
 import { affordable } from "../sampling.js";
 import { angles, product, quaternion, turned, turnedAngles, vectorBetween } from "../rotation.js";
 
@@ -117,6 +118,16 @@ test("the rotation between two quaternions takes the one to the other", () => {
     found.map((part) => part * Math.sign(found[0])),
     b,
   );
+});
+
+test("rounding errors of two equilibria are no displacement", () => {
+  const at = (z, angle) => ({ pose: [1, 2, z, Math.cos(angle / 2), 0, 0, Math.sin(angle / 2)] });
+  const same = between(at(3, 0), at(3 + 4e-13, 1e-12));
+  assert.deepEqual(same, { displacement: [0, 0, 0], rms: 0, rotation: [0, 0, 0] });
+  const moved = between(at(3, 0), at(3 - 1e-6, 0));
+  close([...moved.displacement, moved.rms], [0, 0, -1e-6, 1e-6]);
+  close(between(at(3, 0), at(3, 1e-4)).rotation, [0, 0, 1e-4], 1e-9);
+  assert.equal(between(null, at(3, 0)).rms, null);
 });
 
 test("observations are as many as their time allows, and a power of two", () => {

@@ -161,7 +161,9 @@ pub(crate) struct Found {
     rotation: [[f64; 3]; 3],
     /// Position and angles in words.
     #[serde(skip)]
-    place: String,
+    pub(crate) place: String,
+    #[serde(skip)]
+    pub(crate) pose: Pose,
     /// Force (fx, fz) on each cable at its anchor point, in its vertical plane.
     cable_forces: Vec<[f64; 2]>,
     pub(crate) tensions: Vec<f64>,
@@ -196,6 +198,7 @@ impl Found {
             position: equilibrium.pose.position.into(),
             rotation: rows(&equilibrium.pose),
             place: exact_place(&equilibrium.pose),
+            pose: equilibrium.pose,
             cable_forces: forces(equilibrium),
             tensions: equilibrium.tensions(),
             exit_tensions: equilibrium.exit_tensions(robot, lengths),
@@ -243,6 +246,11 @@ impl Found {
             println!("sagging cables: {cables} (longer than the distance of their points)");
         }
         self.residual.print();
+    }
+
+    /// Stiffness of the softest motion [N/m].
+    pub(crate) fn least_stiffness(&self) -> f64 {
+        self.report.least_stiffness
     }
 
     /// Whether it is stable.

@@ -136,7 +136,7 @@ pub(crate) fn numbers(text: &str) -> Result<Vec<f64>, String> {
 pub(crate) enum Lengths {
     /// One for each cable [m].
     Listed(Vec<f64>),
-    /// A table of them over time.
+    /// A table of them, over time or one set on each line.
     Table(PathBuf),
 }
 
@@ -146,7 +146,7 @@ impl Lengths {
         match self {
             Self::Listed(lengths) => Ok(lengths),
             Self::Table(file) => Err(ProgramError::Usage(format!(
-                "--lengths {}: expected l1,..,ln [m]; `simulate` takes a table of them over time",
+                "--lengths {}: expected l1,..,ln [m]; `direct` takes a table of them, and `simulate` one over time",
                 file.display()
             ))),
         }
@@ -157,7 +157,7 @@ impl Lengths {
 pub(crate) fn lengths(text: &str) -> Result<Lengths, String> {
     match numbers(text) {
         Ok(lengths) => Ok(Lengths::Listed(lengths)),
-        Err(_) if Path::new(text).exists() || text.ends_with(".csv") => {
+        Err(_) if text == "-" || Path::new(text).exists() || text.ends_with(".csv") => {
             Ok(Lengths::Table(PathBuf::from(text)))
         }
         Err(reason) => Err(reason),

@@ -1,12 +1,14 @@
 //! Poses and wrenches as files list them, one a line: which column is which quantity, and in which unit.
 
 mod answers;
+mod lengths;
+
+pub(crate) use lengths::{LengthTable, length_file, winch_file};
 
 use crate::program::arguments::poses::pose_of;
 use crate::program::error::ProgramError;
 use crate::program::questions;
-use cdpr_dynamics::simulate::WinchLengths;
-use cdpr_robot::{Pose, Vector3, counted, plausible, rotation_by_angles, rotation_of, short};
+use cdpr_robot::{Pose, Robot, Vector3, counted, plausible, rotation_by_angles, rotation_of, short};
 use cdpr_study::{Column, Dimension, InputKind, StudyError, Table, TableError, check_table, read_bytes};
 use std::path::Path;
 
@@ -29,8 +31,8 @@ pub(crate) struct PoseTable {
 type Reason = Box<dyn std::fmt::Display>;
 
 /// Poses from a file, one a line: x, y, z, and a quaternion or angles. Three or seven plain numbers need no
-/// names. Or those of answers in JSON.
-pub(crate) fn pose_file(path: &Path) -> Result<PoseTable, ProgramError> {
+/// names. A planar robot needs no coordinate out of its plane. Or those of answers in JSON.
+pub(crate) fn pose_file(path: &Path, robot: &Robot) -> Result<PoseTable, ProgramError> {
     let bytes = read_bytes(path, InputKind::Poses)?;
     if let Err(StudyError::Table { source: TableError::NoText { .. }, .. }) =
         check_table(path, &bytes, InputKind::Poses)
@@ -41,52 +43,94 @@ pub(crate) fn pose_file(path: &Path) -> Result<PoseTable, ProgramError> {
     }
     listed("--poses", (path, bytes), "a pose", |table| {
         let Some(header) = table.header else {
-            let row = |row: &[f64]| pose_of(row).map_err(|error| Box::new(error) as Reason);
+            let row = |row: &[f64]| {
+                let pose = match (row.len(), robot.plane_offset()) {
+                    (2, Some(plane)) => pose_of(&completed(row, plane)),
+                    _ => pose_of(row),
+                };
+                pose.map_err(|error| Box::new(error) as Reason)
+            };
             let columns: Vec<_> = table.columns.iter().map(|column| (column, 1.0)).collect();
             return Ok(PoseTable { poses: rows(table, &columns, row)?, further: Vec::new() });
         };
-        let of = |reason| at(header, &reason);
-        let found =
-            Quantities::of(table, &[&POSITION[..], &QUATERNION, &ANGLES].concat(), POSES).map_err(of)?;
-        let place = found.all(&POSITION).ok_or_else(|| of(found.lacking(POSES)))?;
-        // Numbers of `--rpy` are degrees, too.
-        let angle =
-            |name: &&str| found.get(name).map(|(column, factor)| (column, factor / 1f64.to_radians()));
-        let angles: Vec<Option<(&Column, f64)>> = ANGLES.iter().map(angle).collect();
-        if let Some((column, _)) = angles.iter().flatten().find(|(column, _)| column.quantity().1.is_none()) {
-            let name = &column.name;
-            return Err(of(format!("column {name} has no unit: expected {name}_deg or {name}_rad")));
-        }
-        let poses = match (found.all(&QUATERNION), angles.iter().all(Option::is_none)) {
-            (Some(quaternion), true) => {
-                let poses = rows(table, &[place, quaternion].concat(), |row| {
-                    let rotation = rotation_of([row[3], row[4], row[5], row[6]]);
-                    let rotation = rotation.map_err(|error| Box::new(error) as Reason)?;
-                    Ok(Pose { position: Vector3::new(row[0], row[1], row[2]), rotation })
-                })?;
-                // The names of the columns state the order; the numbers may have another one.
-                let doubt = |(line, pose): (&usize, &Pose)| {
-                    plausible::quaternion(&format!("line {line}: qw,qx,qy,qz"), &pose.rotation)
-                };
-                questions::ask(table.lines.iter().zip(&poses).find_map(doubt));
-                Ok::<_, String>(poses)
-            }
-            (None, _) if !QUATERNION.iter().any(|name| found.get(name).is_some()) => {
-                let columns = place.into_iter().chain(angles.iter().flatten().copied()).collect::<Vec<_>>();
-                rows(table, &columns, |row| by_angles(row, &angles))
-            }
-            _ => Err(of(found.lacking(POSES))),
-        }?;
-        let rows = 0..table.rows();
-        let cells = |column: &&Column| rows.clone().map(|row| column.text(row)).collect();
-        let further = found.further.iter().map(|column| (column.name.clone(), cells(column))).collect();
-        Ok(PoseTable { poses, further })
+        let (poses, further) = named_poses(table, header, robot)?;
+        Ok(PoseTable { poses, further: further.into_iter().map(|column| passed(table, column)).collect() })
     })
 }
 
+/// Two coordinates of a planar robot, and the third one, which is that of its plane.
+fn completed(two: &[f64], (normal, at): (usize, f64)) -> Vec<f64> {
+    let mut all = two.to_vec();
+    all.insert(normal, at);
+    all
+}
+
+/// The poses of a table whose columns have names, and its further columns.
+fn named_poses<'a>(
+    table: &'a Table,
+    header: usize,
+    robot: &Robot,
+) -> Result<(Vec<Pose>, Vec<&'a Column>), String> {
+    let of = |reason| at(header, &reason);
+    let found = Quantities::of(table, &[&POSITION[..], &QUATERNION, &ANGLES].concat(), POSES).map_err(of)?;
+    let plane = robot.plane_offset().filter(|(normal, _)| found.get(POSITION[*normal]).is_none());
+    let place = match plane {
+        Some((normal, _)) => {
+            let names = POSITION.iter().enumerate().filter(|(k, _)| *k != normal);
+            found.all(&names.map(|(_, name)| *name).collect::<Vec<_>>())
+        }
+        None => found.all(&POSITION),
+    };
+    let place = place.ok_or_else(|| of(found.lacking(POSES)))?;
+    // Position, and what is behind it.
+    let columns = place.len();
+    let split = |row: &[f64]| {
+        let (place, rest) = row.split_at(columns);
+        let place = plane.map_or_else(|| place.to_vec(), |plane| completed(place, plane));
+        (Vector3::from_column_slice(&place), rest.to_vec())
+    };
+    // Numbers of `--rpy` are degrees, too.
+    let angle = |name: &&str| found.get(name).map(|(column, factor)| (column, factor / 1f64.to_radians()));
+    let angles: Vec<Option<(&Column, f64)>> = ANGLES.iter().map(angle).collect();
+    if let Some((column, _)) = angles.iter().flatten().find(|(column, _)| column.quantity().1.is_none()) {
+        let name = &column.name;
+        return Err(of(format!("column {name} has no unit: expected {name}_deg or {name}_rad")));
+    }
+    let poses = match (found.all(&QUATERNION), angles.iter().all(Option::is_none)) {
+        (Some(quaternion), true) => {
+            let poses = rows(table, &[place, quaternion].concat(), |row| {
+                let (position, q) = split(row);
+                let rotation = rotation_of([q[0], q[1], q[2], q[3]]);
+                let rotation = rotation.map_err(|error| Box::new(error) as Reason)?;
+                Ok(Pose { position, rotation })
+            })?;
+            // The names of the columns state the order; the numbers may have another one.
+            let doubt = |(line, pose): (&usize, &Pose)| {
+                plausible::quaternion(&format!("line {line}: qw,qx,qy,qz"), &pose.rotation)
+            };
+            questions::ask(table.lines.iter().zip(&poses).find_map(doubt));
+            poses
+        }
+        (None, _) if !QUATERNION.iter().any(|name| found.get(name).is_some()) => {
+            let columns = place.into_iter().chain(angles.iter().flatten().copied()).collect::<Vec<_>>();
+            rows(table, &columns, |row| by_angles(split(row), &angles))?
+        }
+        _ => return Err(of(found.lacking(POSES))),
+    };
+    Ok((poses, found.further))
+}
+
+/// Name and cells of a column.
+fn passed(table: &Table, column: &Column) -> (String, Vec<String>) {
+    (column.name.clone(), (0..table.rows()).map(|row| column.text(row)).collect())
+}
+
 /// The pose of a position [m] and of those angles [degrees] that have a column; the others are zero.
-fn by_angles(row: &[f64], columns: &[Option<(&Column, f64)>]) -> Result<Pose, Reason> {
-    let mut given = row[3..].iter();
+fn by_angles(
+    (position, given): (Vector3<f64>, Vec<f64>),
+    columns: &[Option<(&Column, f64)>],
+) -> Result<Pose, Reason> {
+    let mut given = given.iter();
     let mut angles = [0.0; 3];
     for ((angle, column), name) in angles.iter_mut().zip(columns).zip(ANGLES) {
         let Some((_, factor)) = column else { continue };
@@ -98,7 +142,7 @@ fn by_angles(row: &[f64], columns: &[Option<(&Column, f64)>]) -> Result<Pose, Re
             return Err(Box::new(reason));
         }
     }
-    Ok(Pose { position: Vector3::new(row[0], row[1], row[2]), rotation: rotation_by_angles(angles) })
+    Ok(Pose { position, rotation: rotation_by_angles(angles) })
 }
 
 /// Wrenches from a file, one a line: fx, fy, fz [N], mx, my, mz [N m].
@@ -121,29 +165,6 @@ pub(crate) fn wrench_file(path: &Path) -> Result<Vec<[f64; 6]>, ProgramError> {
                 Box::new(format!("{}: expected {WRENCHES}", counted(row.len(), "number"))) as Reason
             })
         })
-    })
-}
-
-/// Lengths over time from a table: the time `t_s`, and `length_1_m` and so on for each cable; other columns are
-/// further ones.
-pub(crate) fn winch_file(path: &Path, cables: usize) -> Result<WinchLengths, ProgramError> {
-    let option = "--lengths";
-    let rows = listed(option, (path, read_bytes(path, InputKind::Poses)?), "a time and lengths", |table| {
-        let names = ["t_s".to_owned()].into_iter().chain((1..=cables).map(|i| format!("length_{i}_m")));
-        let column = |name: String| {
-            let found = table.column(&name).map(|column| (column, 1.0));
-            found.ok_or_else(|| {
-                format!("expected the columns t_s and length_1_m to length_{cables}_m, no {name}")
-            })
-        };
-        let columns = names.map(column).collect::<Result<Vec<_>, _>>()?;
-        rows(table, &columns, |row| Ok(row.to_vec()))
-    })?;
-    let times: Vec<f64> = rows.iter().map(|row| row[0]).collect();
-    let rows: Vec<Vec<f64>> = rows.iter().map(|row| row[1..].to_vec()).collect();
-    WinchLengths::new(&times, &rows).map_err(|error| {
-        let reason = error.to_string();
-        ProgramError::List { option, path: path.to_owned(), reason }
     })
 }
 

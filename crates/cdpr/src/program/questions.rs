@@ -127,12 +127,14 @@ pub(crate) fn about_displaced(robot: &Robot, from: &Pose, to: &Pose) {
     }
 }
 
-/// A pose that is far away, or in the ground.
+/// A pose that is far away, in the ground, or out of the plane of a planar robot.
 fn odd_pose(robot: &Robot, name: &str, pose: &Pose) -> Option<Doubt> {
-    plausible::position(robot, name, &pose.position).or_else(|| plausible::in_ground(robot, name, pose))
+    plausible::position(robot, name, &pose.position)
+        .or_else(|| plausible::in_ground(robot, name, pose))
+        .or_else(|| plausible::out_of_plane(robot, name, pose))
 }
 
-/// Asks about the first of several poses that is far away or in the ground, and how many are.
+/// Asks about the first of several poses that is odd, and how many are.
 pub(crate) fn about_poses(robot: &Robot, name: &str, poses: &[Pose]) {
     let mut doubts = poses.iter().enumerate().filter_map(|(i, pose)| Some((i, odd_pose(robot, name, pose)?)));
     let Some((i, doubt)) = doubts.next() else { return };

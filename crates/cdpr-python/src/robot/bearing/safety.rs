@@ -36,7 +36,7 @@ answer! {
         tensions: Py<PyAny>,
         /// Tensions at the exit points there [N], (k, n).
         exit_tensions: Py<PyAny>,
-        /// Least breaking force over greatest tension, (k,); NaN where no breaking force is known.
+        /// Least breaking force over greatest tension, (k,); NaN where a breaking force is not known.
         safety_factor: Py<PyAny>,
         /// Greatest distance of the platform from the pose in the motion that follows [m], (k,); NaN unless
         /// `swing` is given.

@@ -3,6 +3,7 @@
 use crate::drawing::axis::extent;
 use crate::page::elements::numeric;
 use crate::page::plot::{BLUE, Plot, RED};
+use crate::text::beyond_rounding;
 use cdpr_calibration::{Fit, UncertaintyMap, arrows};
 use cdpr_robot::Plane;
 use maud::{Markup, PreEscaped, html};
@@ -26,6 +27,7 @@ pub(super) fn in_space(found: &Fit) -> Markup {
     }
     let norm = |v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
     let longest = arrows.iter().map(|(_, before, _)| norm(before)).fold(0.0, f64::max);
+    let longest = 1e-3 * beyond_rounding(1e3 * longest);
     let views = match found.robot.plane {
         None => vec![("from above", [0, 1]), ("from the front", [0, 2])],
         Some(Plane::Xy) => vec![("in the plane of the robot", [0, 1])],

@@ -105,9 +105,14 @@ pub(super) fn of_shapley(run: &Run, inputs: &[InputMeasures], summary: &MethodSu
     })
 }
 
-/// The regression of ranks, which has no bounds.
+/// The regression of ranks, which has no bounds. A share that may be chance alone is not resolved.
 pub(super) fn of_ranks(inputs: &[InputMeasures], summary: &MethodSummary) -> Option<Candidate> {
-    let value = |of: &InputMeasures| Some((of.rank_regression_share?, None));
+    let rows = summary.observations - summary.failed;
+    let chance = share_by_chance(inputs.len(), rows, summary.r_squared.unwrap_or(0.0));
+    let value = |of: &InputMeasures| {
+        let share = of.rank_regression_share?;
+        Some((share, (share <= chance).then_some([0.0, (share + chance).min(1.0)])))
+    };
     Some(Candidate {
         basis: Basis::Ranks,
         measure: "squared coefficient of ",
@@ -117,4 +122,47 @@ pub(super) fn of_ranks(inputs: &[InputMeasures], summary: &MethodSummary) -> Opt
         observations: 1,
         said: Said::Values(inputs.iter().map(value).collect::<Option<_>>()?),
     })
+}
+
+/// What the greatest squared coefficient of a regression on `inputs` inputs with `rows` rows is by chance alone, at
+/// most, in nineteen of twenty cases. A coefficient has the variance (1 - R²)/(n - k - 1) of independent inputs, times
+/// (n - 1)/(n - k) for what the columns of so few rows have in common; the tail of a normal law is below
+/// exp(-z²/2), and k of them are one twentieth together.
+fn share_by_chance(inputs: usize, rows: usize, r_squared: f64) -> f64 {
+    if rows <= inputs + 1 {
+        return f64::INFINITY;
+    }
+    let (n, k) = (rows as f64, inputs as f64);
+    let variance = (1.0 - r_squared) / (n - k - 1.0) * (n - 1.0) / (n - k);
+    2.0 * (20.0 * k).ln() * variance
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::verdict::recommendation::recommend;
+
+    /// What is said of inputs with these shares in a regression of ranks.
+    fn said(shares: &[f64], rows: usize, r_squared: f64) -> Vec<String> {
+        let of =
+            |share: &f64| InputMeasures { rank_regression_share: Some(*share), ..InputMeasures::default() };
+        let inputs: Vec<InputMeasures> = shares.iter().map(of).collect();
+        let summary =
+            MethodSummary { observations: rows, r_squared: Some(r_squared), ..MethodSummary::default() };
+        let names: Vec<String> = (1..=shares.len()).map(|i| format!("x{i}")).collect();
+        let candidate = of_ranks(&inputs, &summary).unwrap();
+        recommend(&names, vec![candidate], 0.95).unwrap().sentences()
+    }
+
+    #[test]
+    fn a_regression_on_nearly_as_many_inputs_as_rows_leads_nowhere() {
+        let noise: Vec<f64> = (0..131).map(|i| 0.2 / f64::from(1 + i)).collect();
+        let few = said(&noise, 200, 0.508);
+        assert_eq!(few[0], "Leading, without bounds: none.");
+        assert!(few[1].starts_with("The regression of ranks explains 0 % of the variance"), "{few:?}");
+        // Of many rows the same shares are no chance.
+        assert_eq!(said(&noise, 100_000, 0.9)[0], "Leading, without bounds: x1, x2, x3.");
+        // Without a degree of freedom nothing is known.
+        assert_eq!(said(&noise, 132, 1.0)[0], "Leading, without bounds: none.");
+    }
 }

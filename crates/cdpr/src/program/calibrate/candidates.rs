@@ -30,7 +30,7 @@ impl Candidates {
     pub(super) fn read(&self, robot: &Robot) -> Result<Vec<Pose>, ProgramError> {
         let poses = match (&self.region, &self.poses) {
             (Some(region), _) => region.grid(robot)?.poses(),
-            (None, Some(path)) => lists::pose_file(path)?.poses,
+            (None, Some(path)) => lists::pose_file(path, robot)?.poses,
             (None, None) => return Err(ProgramError::Usage("expected --poses or --region".to_owned())),
         };
         questions::about_poses(robot, "the candidates", &poses);

@@ -229,7 +229,7 @@ impl RobotAtPose {
     /// The poses of the file.
     pub(crate) fn poses(&self, robot: &Robot) -> Result<Vec<Pose>, ProgramError> {
         let path = self.poses_path()?;
-        let PoseTable { poses, .. } = pose_file(path)?;
+        let PoseTable { poses, .. } = pose_file(path, robot)?;
         questions::about_poses(robot, "--poses", &poses);
         Ok(poses)
     }
@@ -257,7 +257,7 @@ impl RobotAtPose {
         path: &Path,
         mut solve: impl FnMut(&[Pose], &ProgressBar) -> Vec<Result<T, StaticsError>>,
     ) -> Result<Ending, ProgramError> {
-        let PoseTable { poses, further } = pose_file(path)?;
+        let PoseTable { poses, further } = pose_file(path, robot)?;
         questions::about_poses(robot, "--poses", &poses);
         let (columns, format) = (T::columns(robot).len(), self.printing.format());
         let mut ending = Ending::Well;
@@ -381,7 +381,7 @@ fn print_names<T: Row>(robot: &Robot, further: &[(String, Vec<String>)]) {
 }
 
 /// The number or the text of a cell.
-fn cell_value(text: &str) -> Value {
+pub(crate) fn cell_value(text: &str) -> Value {
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() => number.into(),
         _ => text.into(),

@@ -2,19 +2,28 @@
 //!
 //! Cases come one from the arguments, or one or many from a file.
 
+mod case;
+mod table;
+
 use crate::program::answer::Found;
 use crate::program::arguments::poses::{self, PoseArguments};
-use crate::program::arguments::{self, Printing, RobotArgument};
+use crate::program::arguments::{self, Lengths, Printing, RobotArgument};
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, patiently, print_sentence, progress};
 use crate::program::pose::at_pose::Failure;
 use crate::program::questions;
-use cdpr_robot::{Robot, Vector3, Wrench, from_json, plausible, shown};
-use cdpr_statics::{Certificate, DirectProblem, DirectStart, Load, StaticsError, check_lengths, rough_pose};
-use cdpr_study::{InputKind, StudyError, other_kind, read_text};
-use serde::de::IgnoredAny;
-use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
+use case::{Case, CaseError, Cases};
+use cdpr_assess::doubtful_rest;
+use cdpr_robot::{Doubts, Pose, Robot, frame, plausible, shown};
+use cdpr_statics::multistart::Starts;
+use cdpr_statics::{
+    Certificate, DirectProblem, DirectSolution, DirectStart, StaticsError, check_lengths, rough_pose,
+};
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// Reach of further starts over the size of the frame, and their greatest turn about each axis [rad].
+const REACH: (f64, f64) = (0.2, 1.5);
 
 /// The robot, the lengths and the load.
 #[derive(clap::Args)]
@@ -22,9 +31,13 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Settings {
     #[command(flatten)]
     robot: RobotArgument,
-    /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m].
+    /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m]; or a table with a set of them
+    /// on each line, length_1_m to length_n_m.
+    ///
+    /// Poses of the table, x_m,y_m,z_m and so on as `inverse` has them, are where the searches start. The
+    /// answers are lines of CSV, or of JSON with `--format json`, with all columns of the table.
     #[arg(long, value_parser = arguments::lengths, allow_hyphen_values = true)]
-    lengths: Option<arguments::Lengths>,
+    lengths: Option<Lengths>,
     /// Mass of the platform with all it carries, instead of the file's [kg].
     #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
     mass: Option<f64>,
@@ -37,14 +50,17 @@ pub(crate) struct Settings {
     /// Mass added at the platform's centre of mass [kg].
     #[arg(long, value_parser = arguments::mass, allow_hyphen_values = true)]
     payload: Option<f64>,
-    /// Where the search starts; if left out, where straight cables would hold a point.
     #[command(flatten)]
     pose: PoseArguments,
-    /// certificate: prove how close the exact equilibrium is.
+    /// certificate: prove how close the exact equilibrium is. starts=N: search from N poses around the start,
+    /// too, and print all that are found.
+    ///
+    /// Without --pose the search starts level, where straight cables would hold a point. Lengths may hold a
+    /// platform at several poses; the one that is found is near the start.
     #[arg(long, value_name = "NAMES", value_parser = arguments::with)]
     with: Option<arguments::With>,
     /// JSON file with cases: one, a list, or one a line, as `inverse` and `deflection` print them with
-    /// `--format json`; - for the standard input.
+    /// `--format json`, or a table of lengths; - for the standard input.
     ///
     /// A case: {"lengths": [..], "mass": .., "force": [..], "moment": [..], "payload": .., "pose": [..]}.
     #[arg(long, value_name = "FILE")]
@@ -54,58 +70,33 @@ pub(crate) struct Settings {
     printing: Printing,
 }
 
-/// A direct problem, also as a file has it. The fields behind `certify` are those of an answer of `inverse` or
-/// `deflection`, which are of no importance here.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct Case {
-    lengths: Vec<f64>,
-    mass: Option<f64>,
-    force: Option<[f64; 3]>,
-    moment: Option<[f64; 3]>,
-    payload: Option<f64>,
-    /// Start of the search: position, or position and quaternion, three or seven numbers.
-    pose: Option<Vec<f64>>,
-    /// Where the inverse model has found a rest with free coordinates: the start then.
-    found_pose: Option<Vec<f64>>,
+/// What is done at an equilibrium.
+#[derive(Clone, Copy)]
+struct How {
+    /// Whether it is proved.
     certify: bool,
-    tensions: IgnoredAny,
-    exit_tensions: IgnoredAny,
-    cable_forces: IgnoredAny,
-    stable: IgnoredAny,
-    least_stiffness: IgnoredAny,
-    neutral: IgnoredAny,
-    report: IgnoredAny,
-    out_of_limits: IgnoredAny,
-    jump: IgnoredAny,
-    questions: IgnoredAny,
-    given: IgnoredAny,
-    roll_pitch_yaw_deg: IgnoredAny,
-    loops: IgnoredAny,
-    iterations: IgnoredAny,
-    residual: IgnoredAny,
-    others: IgnoredAny,
-    deflection_mm: IgnoredAny,
-    magnitude_mm: IgnoredAny,
-    rounding_mm: IgnoredAny,
-    rotation_deg: IgnoredAny,
-    unloaded: IgnoredAny,
-    loaded: IgnoredAny,
-    /// Why the inverse model has no lengths.
-    error: Option<CaseError>,
+    /// Number of starts from which others are sought.
+    starts: Option<usize>,
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let robot = questions::open_robot(settings.robot.path())?;
-    let (name, certify) = (shown(&robot.name), settings.certify()?);
+    let (name, how) = (shown(&robot.name), settings.how()?);
     let cases = match (&settings.from, &settings.lengths) {
-        (Some(path), _) => Cases::read(path)?,
-        (None, lengths) => Cases::One(Box::new(settings.case(lengths.as_ref())?)),
+        (_, Some(Lengths::Table(path))) => return table::run(settings, &robot, path),
+        (Some(path), _) => match Cases::read(path)? {
+            Some(cases) => cases,
+            None => return table::run(settings, &robot, path),
+        },
+        (None, lengths) => {
+            let listed = lengths.as_ref().map(Lengths::listed).transpose()?;
+            Cases::One(Box::new(settings.case(listed.unwrap_or_default().to_vec())?))
+        }
     };
     match cases {
         Cases::One(case) => {
             case.question(&robot);
-            let answer = patiently("solving", || solve(&robot, &case, "the equilibrium", certify));
+            let answer = patiently("solving", || solve_and_ask(&robot, &case, "the equilibrium", how));
             let answer = match &settings.from {
                 Some(path) => answer.map_err(ProgramError::in_file(path))?,
                 None => answer?,
@@ -118,7 +109,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
             let progress = progress(cases.len(), "cases");
             let answer = |(i, case): (usize, &Case)| {
                 let name = format!("the equilibrium of case {}", i + 1);
-                let answer = solve(&robot, case, &name, certify).into();
+                let answer = solve_and_ask(&robot, case, &name, how).into();
                 progress.inc(1);
                 answer
             };
@@ -136,87 +127,20 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
 }
 
 impl Settings {
-    fn certify(&self) -> Result<bool, ProgramError> {
+    fn how(&self) -> Result<How, ProgramError> {
         let with = self.with.clone().unwrap_or_default();
-        with.check(&["certificate"])?;
-        with.has("certificate")
+        with.check(&["certificate", "starts"])?;
+        let starts = with.value("starts", None, arguments::count::<1, 10_000>)?;
+        Ok(How { certify: with.has("certificate")?, starts })
     }
 
-    fn case(&self, lengths: Option<&arguments::Lengths>) -> Result<Case, ProgramError> {
-        let pose = self.pose.given()?.map(|pose| poses::pose_numbers(&pose).to_vec());
-        Ok(Case {
-            lengths: lengths.map_or(Ok(Vec::new()), |lengths| lengths.listed().map(<[f64]>::to_vec))?,
-            mass: self.mass,
-            force: self.force,
-            moment: self.moment,
-            payload: self.payload,
-            pose,
-            certify: self.certify()?,
-            ..Case::default()
-        })
-    }
-}
-
-impl Case {
-    /// Where the search starts.
-    fn start(&self) -> Option<&Vec<f64>> {
-        self.found_pose.as_ref().or(self.pose.as_ref())
-    }
-
-    /// Asks about lengths, mass, load and start.
-    fn question(&self, robot: &Robot) {
-        questions::about_lengths(robot, &self.lengths);
-        // A mass that is not positive is refused.
-        let mass = self.mass.filter(|mass| *mass > 0.0);
-        questions::ask(mass.and_then(|mass| plausible::mass(robot, "mass", mass)));
-        questions::about_load(robot, &self.load());
-        if let Some(start) = self.start().and_then(|numbers| poses::stated_pose(numbers).ok()) {
-            questions::about_pose(robot, "pose", &start);
-        }
-    }
-
-    fn load(&self) -> Load {
-        let vector = |components: Option<[f64; 3]>| components.map_or_else(Vector3::zeros, Vector3::from);
-        let wrench = Wrench { force: vector(self.force), moment: vector(self.moment) };
-        Load { payload: self.payload.unwrap_or(0.0), wrench }
-    }
-}
-
-/// Why a case has no lengths.
-#[derive(Deserialize)]
-struct CaseError {
-    message: String,
-}
-
-enum Cases {
-    One(Box<Case>),
-    List(Vec<Case>),
-}
-
-/// What a file has.
-const CASE: &str = "expected a case of lengths, mass, force, moment, payload, pose and certify, or what `inverse` \
-                    or `deflection` prints with --format json";
-
-impl Cases {
-    fn read(path: &Path) -> Result<Self, StudyError> {
-        let text = read_text(path, InputKind::Cases)?;
-        let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
-        let is_one_a_line = lines.len() > 1 && lines.iter().all(|line| line.trim_end().ends_with('}'));
-        let cases = if text.trim_start().starts_with('[') {
-            from_json(&text).map(Self::List)
-        } else if is_one_a_line && lines.iter().all(|line| line.starts_with('{')) {
-            from_json(&format!("[{}]", lines.join(",\n"))).map(Self::List)
-        } else {
-            from_json(&text).map(|case| Self::One(Box::new(case)))
-        };
-        cases.map_err(|mut source| {
-            // The list of serde has the fields of answers, too.
-            if let Some((unknown, _)) = source.message.split_once("`, expected") {
-                source.message = format!("{unknown}`: {CASE}");
-            }
-            let other = other_kind(path, &text, InputKind::Cases);
-            other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
-        })
+    /// The case of these lengths [m].
+    fn case(&self, lengths: Vec<f64>) -> Result<Case, ProgramError> {
+        let mut case = Case::default().with_lengths(lengths);
+        (case.mass, case.payload) = (self.mass, self.payload);
+        (case.force, case.moment) = (self.force, self.moment);
+        case.pose = self.pose.given()?.map(|pose| poses::pose_numbers(&pose).to_vec());
+        Ok(case)
     }
 }
 
@@ -227,6 +151,9 @@ struct Answer {
     found: Found,
     #[serde(skip_serializing_if = "Option::is_none")]
     certificate: Option<Proof>,
+    /// Other stable equilibria that further starts have found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    others: Option<Vec<Found>>,
 }
 
 /// The proof of how close the exact equilibrium is, or why there is no proof.
@@ -246,7 +173,21 @@ enum Entry {
 }
 
 /// Solves a case and asks about the answer, which is called `name`.
-fn solve(robot: &Robot, case: &Case, name: &str, prove: bool) -> Result<Answer, StaticsError> {
+fn solve_and_ask(robot: &Robot, case: &Case, name: &str, how: How) -> Result<Answer, StaticsError> {
+    let mut doubts = Doubts::new();
+    let answer = solve(robot, case, name, how, &mut doubts);
+    questions::ask(doubts);
+    answer
+}
+
+/// Solves a case; what is doubtful about the answer, which is called `name`, is added to the doubts.
+fn solve(
+    robot: &Robot,
+    case: &Case,
+    name: &str,
+    how: How,
+    doubts: &mut Doubts,
+) -> Result<Answer, StaticsError> {
     let mut robot = robot.clone();
     if let Some(mass) = case.mass {
         robot.platform.mass = mass;
@@ -277,14 +218,42 @@ fn solve(robot: &Robot, case: &Case, name: &str, prove: bool) -> Result<Answer, 
     }
     check_lengths(&robot, &case.lengths)?;
     let problem = DirectProblem::new(&robot, &case.lengths, &load)?;
-    let solution = problem.direct(DirectStart::Pose(&start)).inspect_err(|_| {
+    let (solution, others) = rests(&robot, &problem, &start, how.starts).inspect_err(|_| {
         if case.start().is_some() {
-            questions::ask(plausible::lengths_at(&robot, &case.lengths, &start));
+            doubts.extend(plausible::lengths_at(&robot, &case.lengths, &start));
         }
     })?;
-    questions::about_rest(&robot, name, (&case.lengths, &load), &solution, case.start().map(|_| &start));
-    let certificate = (prove || case.certify).then(|| problem.certify(&solution).into());
-    Ok(Answer { found: Found::new(&robot, &case.lengths, &solution), certificate })
+    let stated = case.start().map(|_| &start);
+    doubts.extend(doubtful_rest(&robot, name, (&case.lengths, &load), &solution, stated));
+    let certificate = (how.certify || case.certify).then(|| problem.certify(&solution).into());
+    let found = |solution: &DirectSolution| Found::new(&robot, &case.lengths, solution);
+    Ok(Answer {
+        found: found(&solution),
+        certificate,
+        others: others.map(|others| others.iter().map(found).collect()),
+    })
+}
+
+/// The equilibrium from a start, or else from one of the poses around it, and the other stable ones of these.
+fn rests(
+    robot: &Robot,
+    problem: &DirectProblem,
+    start: &Pose,
+    starts: Option<usize>,
+) -> Result<(DirectSolution, Option<Vec<DirectSolution>>), StaticsError> {
+    let first = problem.direct(DirectStart::Pose(start));
+    let Some(count) = starts else { return first.map(|solution| (solution, None)) };
+    let size = frame(robot).iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+    let starts = Starts { center: *start, reach: REACH.0 * size, rotation: REACH.1, count };
+    let found = problem.equilibria(&starts)?.found.into_iter().map(|found| found.solution);
+    let mut stable: Vec<DirectSolution> = found.filter(|found| found.stability.is_stable()).collect();
+    let first = match first {
+        Err(error) if stable.is_empty() => return Err(error),
+        Err(_) => stable.remove(0),
+        Ok(first) => first,
+    };
+    stable.retain(|other| !problem.is_same(&first, other));
+    Ok((first, Some(stable)))
 }
 
 impl Answer {
@@ -307,6 +276,12 @@ impl Answer {
             }
             Some(Proof::None { error }) => print_sentence(&error.message),
             None => {}
+        }
+        for other in self.others.iter().flatten() {
+            print_sentence(&format!("also stable at {}", other.place));
+        }
+        if self.others.as_ref().is_some_and(Vec::is_empty) {
+            println!("no other stable equilibrium was found from these starts");
         }
     }
 }

@@ -86,7 +86,7 @@ struct Answer {
     greatest_allowed: Vec<f64>,
     breaking_forces: Vec<Option<f64>>,
     /// The greatest tension before the break, and the least breaking force over greatest tension; `null` where
-    /// no breaking force is known.
+    /// a breaking force is not known.
     greatest_tension: Greatest,
     safety_factor: Option<f64>,
     broken: Vec<Case>,
@@ -222,7 +222,11 @@ impl Answer {
         let strength = match known.len() {
             0 => "no breaking force is known, so that there are no factors".to_owned(),
             some if some < self.breaking_forces.len() => {
-                format!("the breaking force, known of {some} cables, is {}", all(&known))
+                format!(
+                    "the breaking force, known of {some} cables, is {}; there is no factor with another cable, which \
+                     may be the first to break",
+                    all(&known)
+                )
             }
             _ => format!("the breaking force is {}", all(&known)),
         };

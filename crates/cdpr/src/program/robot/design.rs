@@ -138,6 +138,7 @@ fn print_front(robot: &Robot, found: &Front) {
         "{name}: the {one} against the {two}, {points} of which none is better in both ({tried}{each})."
     ));
     found.basis.iter().for_each(|basis| print_sentence(basis));
+    found.left_laws.iter().for_each(|laws| print_sentence(laws));
     let held = found.points.len() + found.dominated;
     let made = match found.starts {
         0 => format!("{held} of {} hold {WITHIN}", counted(found.configurations, "configuration")),
@@ -193,7 +194,8 @@ fn print(robot: &Robot, found: &Design, seconds: f64) {
         return;
     };
     let basis = found.basis.map(str::to_owned);
-    let first = [Some(verdict(robot, found, best)), basis, Some(ends(found, best, seconds))];
+    let first =
+        [Some(verdict(robot, found, best)), basis, found.left_laws.clone(), Some(ends(found, best, seconds))];
     for sentence in first.into_iter().chain([optimum(best), demands(found, best)]).flatten() {
         print_sentence(&sentence);
     }

@@ -4,7 +4,7 @@ mod answer;
 
 use crate::program::arguments::{self, UncertaintyArgument, With};
 use crate::program::error::ProgramError;
-use crate::program::output::{Ending, progress};
+use crate::program::output::{Ending, patiently, progress};
 use crate::program::pose::at_pose::RobotAtPose;
 use crate::program::pose::modes::with_inertia;
 use answer::{After, Answer, Robots};
@@ -147,8 +147,10 @@ pub(super) fn run(
         let simulated = plain.watched(seconds, wanted.damping)?;
         let unshaped = plain.plan()?;
         let after = |points: &[SetPoint]| residual(&robot, &plain.load, points, &[], &simulated);
-        answer.residual =
-            Some(After::new(&planned, &after(&set_points)?, &after(&unshaped)?, simulated.until));
+        let (shaped, without) = patiently("simulating the move and what swings after it", || {
+            rayon::join(|| after(&set_points), || after(&unshaped))
+        });
+        answer.residual = Some(After::new(&planned, &shaped?, &without?, simulated.until));
         if let (Some(model), Some(seed)) = (&model, wanted.seed) {
             let count = wanted.robots.unwrap_or(ROBOTS);
             let drawn = DrawnRobots { nominal: &robot, model, count, seed };

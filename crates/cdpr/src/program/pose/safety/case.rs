@@ -64,7 +64,7 @@ pub(super) struct Rest {
     pub(super) slack_cables: Vec<usize>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) out_of_limits: Vec<OutOfLimits>,
-    /// Least breaking force over greatest tension; `null` where no breaking force is known.
+    /// Least breaking force over greatest tension; `null` where a breaking force is not known.
     pub(super) safety_factor: Option<f64>,
     pub(super) below_ground: bool,
     /// Whether it is turned by more than a right angle: what its cables touch then is not known.

@@ -35,7 +35,7 @@ pub(super) struct InWeather {
     /// The wind with the greatest tension.
     #[serde(skip_serializing_if = "Option::is_none")]
     tightest: Option<OneWind>,
-    /// The least safety factor in any wind; absent where no breaking force is known.
+    /// The least safety factor in any wind; absent where a breaking force is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     least_safe: Option<LeastSafe>,
     /// Whether what is wrong is a tension.
@@ -88,7 +88,7 @@ struct OneWind {
     greatest_tension: Greatest,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
-    /// Least breaking force over greatest tension; `null` where no breaking force is known.
+    /// Least breaking force over greatest tension; `null` where a breaking force is not known.
     safety_factor: Option<f64>,
     below_ground: bool,
     residual: Residual,
