@@ -117,8 +117,8 @@ impl CableType {
         numbers(one) == numbers(other)
     }
 
-    /// Gives cable `i` this type; its greatest tension is at most the breaking force. A measured law stays where
-    /// the type is that of the robot's own cable.
+    /// Gives cable `i` this type; its greatest tension is at most the breaking force. A measured law stays
+    /// where the type is that of the robot's own cable.
     pub(crate) fn put_on(&self, robot: &mut Robot, i: usize) {
         let breaking = self.properties.breaking_force.filter(|force| *force < robot.limits(i).max);
         let keeps_law = self.is_that_of(robot, i);
@@ -161,8 +161,8 @@ pub(crate) fn left_laws(types: &[CableType], variables: &[Variable], robot: &Rob
         _ => format!("cables {} have", numbers.join(", ")),
     };
     Some(format!(
-        "The types of cable are linear, by their youngs_modulus: the measured law that {which} in the robot file is \
-         not that of other cables, and only the robot as it is has it."
+        "The types of cable are linear, by their youngs_modulus: the measured law that {which} in the robot \
+         file is not that of other cables, and only the robot as it is has it."
     ))
 }
 

@@ -3,8 +3,8 @@
 //! With J, the inertia about the centre of mass of as many equal masses at the anchor points as there are
 //! cables, of the mass of the platform together, `tr I / tr J` is the square of the radius of gyration over
 //! the distance of the anchor points (mean of squares). It is 1/3 of a solid box with its anchors at the
-//! corners, 1/5 of the ball inside it, and 1 of a shell with its anchors on it. Of a planar robot the moments about
-//! the normal of its plane are compared alone, those of the points from their distances in the plane.
+//! corners, 1/5 of the ball inside it, and 1 of a shell with its anchors on it. Of a planar robot the moments
+//! about the normal of its plane are compared alone, those of the points from their distances in the plane.
 
 use super::{Findings, Severity};
 use cdpr_robot::{RobotCable, significant};

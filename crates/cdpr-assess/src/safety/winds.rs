@@ -280,8 +280,8 @@ fn share_of_limit(robot: &Robot, tensions: &[[f64; 2]]) -> f64 {
     tensions.iter().enumerate().map(of_cable).fold(0.0, f64::max)
 }
 
-/// Least breaking force over greatest tension of these cables; `None` where one of them has no breaking force, which
-/// may be the one that breaks first.
+/// Least breaking force over greatest tension of these cables; `None` where one of them has no breaking
+/// force: it may be the first to break.
 pub(super) fn safety_factor(robot: &Robot, cables: &[usize], tensions: &[[f64; 2]]) -> Option<(f64, usize)> {
     let factor = |i: &usize| {
         let force = robot.cables[*i].properties.breaking_force?;

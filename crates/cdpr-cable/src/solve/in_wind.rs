@@ -15,10 +15,10 @@
 //! dr/ds = (1 + ε(T)) t,      dn/ds = -w - (1 + ε(T)) q,      t = n/T                           (C40)
 //! ```
 //!
-//! Newton's method finds the n(0) with which the cable ends at A; dual numbers carry the derivatives by n(0). A
-//! step of the integration is Gragg's modified midpoint rule with several numbers of substeps, extrapolated in
-//! the square of their lengths (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 1993, II.9):
-//! of order 12 where the drag is smooth.
+//! Newton's method finds the n(0) with which the cable ends at A; dual numbers carry the derivatives by n(0).
+//! A step of the integration is Gragg's modified midpoint rule with several numbers of substeps, extrapolated
+//! in the square of their lengths (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 1993,
+//! II.9): of order 12 where the drag is smooth.
 //!
 //! The wind may grow with the height z above the ground (P. J. Richards, R. P. Hoxey, Appropriate boundary
 //! conditions for computational wind engineering models, J. Wind Eng. Ind. Aerodyn. 46-47, 1993; for heights
@@ -267,8 +267,8 @@ impl CableInWind<'_> {
         given.length - given.guided / self.material(&given).stretch(tension)[0]
     }
 
-    /// The end of the cable by the shorter of two step sizes, with the error of its position [m], as if it were of
-    /// the fourth power of the step: where the drag has a kink, the order is less than that of the method.
+    /// The end of the cable by the shorter of two step sizes, with the error of its position [m], as if it
+    /// were of the fourth power of the step: where the drag has a kink, the order is less than the method's.
     fn extrapolated<const N: usize>(
         &self,
         given: &Given<Dual<f64, N>>,
@@ -292,7 +292,7 @@ impl CableInWind<'_> {
         state
     }
 
-    /// A step: midpoint rules with more and more substeps, extrapolated to none by the scheme of Aitken and Neville.
+    /// A step: midpoint rules with more and more substeps, extrapolated by the scheme of Aitken and Neville.
     fn stepped<T: Real>(&self, given: &Given<T>, state: &State<T>, step: T) -> State<T> {
         let first = self.slope(given, state);
         let mut row = [*state; SUBSTEPS.len()];

@@ -53,8 +53,8 @@ impl RigidMotion {
     }
 }
 
-/// The axis whose measured coordinate, with its sign changed, is the modelled one up to a translation, to this root
-/// mean square [m].
+/// The axis whose measured coordinate, with its sign changed, is the modelled one up to a translation, to
+/// this root mean square [m].
 fn other_sign(pairs: &[(Vector3<f64>, Vector3<f64>)], close: f64) -> Option<Axis> {
     let left = |axis: &Axis| {
         let apart: Vec<Vector3<f64>> = pairs
@@ -126,14 +126,14 @@ impl Problem<'_> {
         }
         if let Some(axis) = other_sign(&pairs, LEFT * before) {
             let expected = format!(
-                "positions in the base frame of the robot: with the lengths they fit once {axis} has the other \
-                 sign, to {before:.3} m as they are"
+                "positions in the base frame of the robot: with the lengths they fit once {axis} has the \
+                 other sign, to {before:.3} m as they are"
             );
             return Err(CalibrationError::Column { column: format!("{axis}_m"), expected });
         }
         let over = if turns_over(&pairs, &rotation) {
-            "; it turns over the plane in which these positions are: are two coordinates exchanged, or is one \
-             seen from the other side?"
+            "; it turns over the plane in which these positions are: are two coordinates exchanged, or is \
+             one seen from the other side?"
         } else {
             ""
         };

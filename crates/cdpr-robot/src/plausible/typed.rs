@@ -21,7 +21,7 @@ const NEARLY_LEVEL: f64 = 0.985;
 const TURN: f64 = 360.0;
 /// Depth below the ground that is an error of surveying, over the size of the frame.
 const SURVEYED: f64 = 1e-4;
-/// Distance of a pose from the plane of the cables over the size of the frame, up to which it is in the plane.
+/// Distance of a pose from the plane of the cables over the size of the frame up to which it is in it.
 const OUT_OF_PLANE: f64 = 0.01;
 /// Angle by which a platform is turned out of the plane by rounding of its quaternion, at most [rad].
 const OUT_OF_PLANE_TURN: f64 = 0.01;
@@ -99,8 +99,8 @@ pub fn in_ground(robot: &Robot, quantity: &str, pose: &Pose) -> Option<Doubt> {
     })
 }
 
-/// A pose of a planar robot at which its cables leave the plane in which it moves, or its platform is turned out
-/// of it.
+/// A pose of a planar robot at which its cables leave the plane in which it moves, or its platform is turned
+/// out of it.
 pub fn out_of_plane(robot: &Robot, quantity: &str, pose: &Pose) -> Option<Doubt> {
     let plane = robot.plane?;
     let (normal, cables) = (plane.normal(), &robot.cables);

@@ -146,7 +146,7 @@ impl Lengths {
         match self {
             Self::Listed(lengths) => Ok(lengths),
             Self::Table(file) => Err(ProgramError::Usage(format!(
-                "--lengths {}: expected l1,..,ln [m]; `direct` takes a table of them, and `simulate` one over time",
+                "--lengths {}: expected l1,..,ln [m]; `direct` takes a table of them, `simulate` one over time",
                 file.display()
             ))),
         }

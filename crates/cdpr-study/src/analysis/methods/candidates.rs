@@ -124,9 +124,9 @@ pub(super) fn of_ranks(inputs: &[InputMeasures], summary: &MethodSummary) -> Opt
     })
 }
 
-/// What the greatest squared coefficient of a regression on `inputs` inputs with `rows` rows is by chance alone, at
-/// most, in nineteen of twenty cases. A coefficient has the variance (1 - R²)/(n - k - 1) of independent inputs, times
-/// (n - 1)/(n - k) for what the columns of so few rows have in common; the tail of a normal law is below
+/// What the greatest squared coefficient of a regression on `inputs` inputs with `rows` rows is by chance
+/// alone, at most, in nineteen of twenty cases. A coefficient has the variance (1 - R²)/(n - k - 1) of
+/// independent inputs, times (n - 1)/(n - k) for what the columns of so few rows have in common; the tail of a normal law is below
 /// exp(-z²/2), and k of them are one twentieth together.
 fn share_by_chance(inputs: usize, rows: usize, r_squared: f64) -> f64 {
     if rows <= inputs + 1 {

@@ -223,8 +223,8 @@ impl Answer {
             0 => "no breaking force is known, so that there are no factors".to_owned(),
             some if some < self.breaking_forces.len() => {
                 format!(
-                    "the breaking force, known of {some} cables, is {}; there is no factor with another cable, which \
-                     may be the first to break",
+                    "the breaking force, known of {some} cables, is {}; there is no factor with another \
+                     cable, which may be the first to break",
                     all(&known)
                 )
             }
