@@ -85,7 +85,7 @@ fn planar(folder: &TempDir) -> String {
         "platform": {"mass": 1.2, "center_of_mass": [0, 0, 0], "inertia": 0.003},
         "cable": {"diameter": 0.001, "youngs_modulus": 5e10, "linear_density": 0.0006},
         "tension_limits": {"min": 5, "max": 150},
-        "cables": [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]].map(cable),
+        "cables": ([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]].map(cable)),
     });
     put(folder, "robot.json", &robot.to_string())
 }
