@@ -163,3 +163,13 @@ fn a_platform_hung_in_one_point_is_shaken_without_a_word_about_0_hertz() {
     let found: serde_json::Value = serde_json::from_str(&shown).unwrap();
     assert!(found["frequencies"][0]["amplitude_m_per_n"].is_number(), "{found}");
 }
+
+#[test]
+fn a_band_without_a_peak_says_so_and_has_no_empty_table() {
+    let arguments = ["response", &data_path("robots/cogiro.json"), "--pose", "0,0,2", "--number", "9"];
+    let still = unwrapped(cdpr(&[&arguments[..], &["--below", "0.1"]].concat()).stdout);
+    assert!(still.contains("there is no peak") && !still.contains("largest peaks"), "{still}");
+    assert!(!still.contains("frequency [Hz]"), "{still}");
+    let shaken = unwrapped(cdpr(&[&arguments[..], &["--below", "6"]].concat()).stdout);
+    assert!(shaken.contains("largest peaks") && !shaken.contains("no peak"), "{shaken}");
+}

@@ -331,6 +331,7 @@ fn print(robot: &Robot, found: &Found) {
         rows.add_row([(i + 1).to_string(), a, b, c, modulus, energy]);
     }
     println!("{rows}");
+    println!("tensions at the middle of each cable");
     println!(
         "displaced by the payload  {} mm",
         vector(&found.deflection_mm, decimals_of(found.deflection_mm, 4))

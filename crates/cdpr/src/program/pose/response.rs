@@ -219,13 +219,30 @@ impl Answer {
                 format!("{heading}: a force shakes the point {most_of}, at {:.4} Hz", most.frequency_hz);
             print_sentence(&format!("{shaken}; {at_rest}."));
         }
-        println!(
-            "Damping of the cables: stretch {} s, drag {} 1/s. The largest peaks:",
-            self.damping_s, self.drag_per_s
-        );
+        let peaks = self.peaks();
+        let damping =
+            format!("Damping of the cables: stretch {} s, drag {} 1/s.", self.damping_s, self.drag_per_s);
+        if peaks.is_empty() {
+            let end = self.frequencies.last().map_or(0.0, |at| at.frequency_hz);
+            print_sentence(&format!(
+                "{damping} No frequency between 0 and {} Hz has a larger amplitude than those next to it: \
+                 there is no peak; --below HZ looks further.",
+                significant(end, 4)
+            ));
+        } else {
+            println!("{damping} The largest peaks:");
+            Self::print_peaks(&peaks);
+        }
+        if self.drag_per_s == 0.0 {
+            println!("{NO_DRAG}");
+        }
+        OutOfLimits::print(&self.out_of_limits);
+    }
+
+    fn print_peaks(peaks: &[&At]) {
         let names = ["frequency [Hz]", "amplitude [mm/N]", "x, y, z along [mm/N]", "winches [mm/mm]"];
         let mut rows = table(&names);
-        for at in self.peaks().into_iter().take(LISTED) {
+        for at in peaks.iter().take(LISTED) {
             let winches = largest_of(&at.of_winches());
             let along = at.along().map(millimetres).join(" ");
             let cells = [
@@ -239,10 +256,6 @@ impl Answer {
         println!("{rows}");
         println!("amplitude: of a force in the worst direction, |(x, y, z)| of the motion");
         println!("x, y, z along: by a force along the axis; winches: the one that moves the point most");
-        if self.drag_per_s == 0.0 {
-            println!("{NO_DRAG}");
-        }
-        OutOfLimits::print(&self.out_of_limits);
     }
 
     /// A line of CSV for each frequency.
