@@ -144,7 +144,7 @@ pub(crate) fn identify(
     py: Python,
     robot: &Robot,
     poses: Numbers,
-    uncertainty: Named,
+    uncertainty: Uncertain,
     noise: Named,
     payload: f64,
     free: Option<Vec<String>>,
@@ -152,8 +152,8 @@ pub(crate) fn identify(
     let poses = Rows::poses("poses", &poses, &robot.robot)?;
     let free = coordinates(free)?;
     run(py, |_| {
-        let calibration =
-            Calibration::new(&robot.robot, &deviations(&robot.robot, &uncertainty)?)?.with_free(&free);
+        let model = uncertainty.errors(&robot.robot)?;
+        let calibration = Calibration::of_model(&robot.robot, &model)?.with_free(&free);
         let (calibration, held) = measured(calibration, &poses, payload, &noise)?;
         let found = calibration.identify(0..held.len());
         let part = |of: &Combination| {
@@ -179,7 +179,7 @@ pub(crate) fn plan(
     py: Python,
     robot: &Robot,
     poses: Numbers,
-    uncertainty: Named,
+    uncertainty: Uncertain,
     noise: Named,
     count: usize,
     criterion: &str,
@@ -208,8 +208,8 @@ pub(crate) fn plan(
         _ => return Err(Raised::Input(format!("of is {of}: expected position or deflection"))),
     };
     run(py, |_| {
-        let calibration =
-            Calibration::new(&robot.robot, &deviations(&robot.robot, &uncertainty)?)?.with_free(&free);
+        let model = uncertainty.errors(&robot.robot)?;
+        let calibration = Calibration::of_model(&robot.robot, &model)?.with_free(&free);
         let (mut calibration, held) = measured(calibration, &poses, payload, &noise)?;
         let mut worked = 0;
         for k in 0..work.as_ref().map_or(0, Rows::number) {
@@ -320,9 +320,23 @@ fn measured(
     }
 }
 
-/// The standard deviation of each parameter, which is questioned.
-fn deviations(robot: &cdpr_robot::Robot, named: &[(String, f64)]) -> Answer<Vec<f64>> {
-    let deviations = uncertainties(robot, named)?;
-    question(ErrorModel::normal(robot, &deviations).doubts(robot))?;
-    Ok(deviations)
+/// What is uncertain: standard deviations by name, or the laws of an error model.
+#[derive(FromPyObject)]
+pub(crate) enum Uncertain {
+    Named(Named),
+    Laws(Source),
+}
+
+impl Uncertain {
+    /// The error model, whose deviations are questioned.
+    fn errors(&self, robot: &cdpr_robot::Robot) -> Answer<ErrorModel> {
+        match self {
+            Self::Named(named) => {
+                let model = ErrorModel::normal(robot, &uncertainties(robot, named)?);
+                question(model.doubts(robot))?;
+                Ok(model)
+            }
+            Self::Laws(source) => source.errors(robot),
+        }
+    }
 }

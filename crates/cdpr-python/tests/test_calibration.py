@@ -123,6 +123,27 @@ def test_plans_are_those_of_the_program(caroca, caroca_file, candidates):
         cdpr.calibration.plan(caroca, candidates, criterion="mean-at-work", **known)
 
 
+def test_plans_take_laws_as_the_program_does(caroca, caroca_file, candidates, tmp_path):
+    laws = {
+        "a": {"law": {"uniform": {"min": -0.003, "max": 0.003}}},
+        "mass": {"law": {"uniform": {"min": -1.5, "max": 1.5}}, "steps": {"nearest": {"step": 1.5}}},
+    }
+    model = tmp_path / "model.json"
+    model.write_text(json.dumps(laws))
+    noise = {"position": 1e-4, "rotation": 1e-4}
+    found = [
+        cdpr.calibration.plan(caroca, candidates, count=4, uncertainty=given, noise=noise) for given in (laws, model)
+    ]
+    assert found[0].content == found[1].content
+    arguments = ["--region=-2:2:4,-1:1:3,1:2.5:4", "--number", 4, "--noise", "position=1e-4,rotation=1e-4"]
+    theirs = answer("calibrate", "plan", caroca_file, *arguments, "--uncertainty", model)
+    assert found[0].quality.information_bits == pytest.approx(theirs["plan"]["information_bits"], rel=1e-9)
+    told = cdpr.calibration.identify(caroca, found[0].poses, uncertainty=laws, noise=noise)
+    assert "mass" in told.inputs and told.held == 4
+    with pytest.raises(cdpr.InputError, match="uniform"):
+        cdpr.calibration.identify(caroca, found[0].poses, uncertainty={"a": {"law": {"even": {}}}}, noise=noise)
+
+
 def test_irma4u_is_read_as_its_authors_write_it(data, tmp_path):
     """A simulated campaign in the form of the authors' files."""
     grid, measured = tmp_path / "poses.csv", tmp_path / "measured.csv"

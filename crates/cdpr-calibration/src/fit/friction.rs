@@ -20,7 +20,8 @@ pub struct PulleyCalibration {
     pub bearing: Option<EstimatedValue>,
     /// Unit vector of the sum of both that is identified best.
     pub combination: [f64; 2],
-    /// This sum.
+    /// This sum. Where it alone is identified, its standard deviation has a part for how the coefficients may
+    /// share it.
     pub combined: EstimatedValue,
     /// Standard deviation of a tension at a winch, from the residuals [N].
     pub noise_n: f64,
@@ -84,8 +85,27 @@ pub fn calibrate_pulleys(
 ) -> Result<PulleyCalibration, CalibrationError> {
     let history = History::new(robot, measured, pose, free)?;
     let none = PulleyFriction::default();
-    let (fit, friction) = fit_friction_model(|friction| history.residuals(friction))?;
+    let (mut fit, friction) = fit_friction_model(|friction| history.residuals(friction))?;
+    if fit.coefficients.is_none() {
+        fit.combined.deviation = fit.combined.deviation.hypot(undecided(&history, &fit));
+    }
     Ok(concluded(&history, &fit, friction, &history.states(none)?, &history.states(friction)?))
+}
+
+/// Standard deviation of the sum that is identified, as the readings leave open how both coefficients share it: to
+/// second order they depend on the product of both. It is that of an even law as wide as the greatest difference
+/// of the sums with all friction on the wheels and with all in the bearings. A coefficient alone that fits nothing
+/// is left out.
+fn undecided(history: &History, fit: &FrictionFit) -> f64 {
+    let of_one = |largest: [f64; 2]| {
+        let of = |share: f64| PulleyFriction { friction: share * largest[0], bearing: share * largest[1] };
+        // The model depends on one coefficient: the other one is no part of it.
+        let (_, found) = fit_friction_model(|friction| history.residuals(of(friction.friction))).ok()?;
+        let found = of(found.friction);
+        let sum = fit.combination[0] * found.friction + fit.combination[1] * found.bearing;
+        Some((sum - fit.combined.value).abs())
+    };
+    [[1.0, 0.0], [0.0, 0.5]].into_iter().filter_map(of_one).fold(0.0, f64::max) / 3.0_f64.sqrt()
 }
 
 /// The answer, with states without and with friction.

@@ -3795,7 +3795,7 @@ def simulate(
 def identify(
     robot: Robot,
     poses: ArrayLike,
-    uncertainty: list[tuple[str, float]],
+    uncertainty: list[tuple[str, float]] | _Source,
     noise: list[tuple[str, float]],
     payload: float,
     free: list[str] | None,
@@ -3804,7 +3804,7 @@ def identify(
 def plan(
     robot: Robot,
     poses: ArrayLike,
-    uncertainty: list[tuple[str, float]],
+    uncertainty: list[tuple[str, float]] | _Source,
     noise: list[tuple[str, float]],
     count: int,
     criterion: str,

@@ -103,6 +103,13 @@ def numbers(given: Optional[Mapping[str, float]]) -> list[tuple[str, float]]:
     return [(name, float(value)) for name, value in (given or {}).items()]
 
 
+def uncertainty(given: Union[Document, Mapping[str, float]]) -> Union[Source, list[tuple[str, float]]]:
+    """Standard deviations by their names, or the error model as a file or the text of one."""
+    if isinstance(given, Mapping) and not any(isinstance(value, (str, Mapping)) for value in given.values()):
+        return numbers(given)
+    return document("uncertainty", given)
+
+
 def names(given: Any) -> Optional[list[str]]:
     """A list of names, or None."""
     return None if given is None else list(given)

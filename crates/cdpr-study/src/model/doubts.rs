@@ -14,10 +14,10 @@ impl ErrorModel {
     fn moments(&self) -> IndexMap<usize, (&Term, [f64; 2])> {
         let mut found = IndexMap::new();
         for term in &self.terms {
-            let law = &self.inputs[term.input].law;
+            let input = &self.inputs[term.input];
             let (_, [mean, std]) = found.entry(term.parameter).or_insert((term, [0.0, 0.0]));
-            *mean += term.factor * law.mean();
-            *std = f64::hypot(*std, term.factor * law.std());
+            *mean += term.factor * input.mean();
+            *std = f64::hypot(*std, term.factor * input.std());
         }
         found
     }

@@ -120,8 +120,7 @@ impl Tally {
         const ROUNDING: f64 = 1e-9;
         let mut tally = Self::new(sampling);
         let inputs = sampling.design.inputs().len();
-        let least: Vec<f64> =
-            sampling.design.inputs().iter().map(|input| ROUNDING * input.law.std()).collect();
+        let least: Vec<f64> = sampling.design.inputs().iter().map(|input| ROUNDING * input.std()).collect();
         for (outcome, row) in part.outcomes.iter().zip(part.rows.chunks_exact(inputs)) {
             let value = value_of(outcome);
             tally.sums.add(row, value);

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Optional
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 from .. import _core, _inputs
 from .._core import Robot
@@ -57,7 +57,7 @@ def identify(
     robot: Robot,
     poses: ArrayLike,
     *,
-    uncertainty: Mapping[str, float],
+    uncertainty: Union[Mapping[str, float], _inputs.Document],
     noise: Mapping[str, float],
     payload: float = 0.0,
     free: Optional[Sequence[str]] = None,
@@ -70,8 +70,9 @@ def identify(
         The robot.
     poses : array_like
         (m, 3) or (m, 7); those that the robot does not hold are left out.
-    uncertainty : dict of float
-        Standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
+    uncertainty : path or dict
+        Standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}; or an error model
+        with laws and correlations, its content as a dictionary or a file, such as the posterior of a fit.
     noise : dict of float
         Standard deviations of what is measured, "position" [m] and "rotation" [rad], "tension" [N],
         "length" [m]: {"position": 1e-4, "rotation": 1e-4}.
@@ -102,7 +103,7 @@ def identify(
     >>> told.remaining.shape
     (24,)
     """
-    settings = (_inputs.numbers(uncertainty), _inputs.numbers(noise), payload, _inputs.names(free))
+    settings = (_inputs.uncertainty(uncertainty), _inputs.numbers(noise), payload, _inputs.names(free))
     found = json.loads(_core.identify(robot, poses, *settings))
     rows = [{"parameter": name, "remaining": value} for name, value in found["remaining"].items()]
     return Identified({**found, "parameters": rows})
@@ -211,7 +212,7 @@ def plan(
     robot: Robot,
     poses: ArrayLike,
     *,
-    uncertainty: Mapping[str, float],
+    uncertainty: Union[Mapping[str, float], _inputs.Document],
     noise: Mapping[str, float],
     count: int = 20,
     criterion: str = "information",
@@ -229,7 +230,7 @@ def plan(
         The robot.
     poses : array_like
         candidates, (m, 3) or (m, 7).
-    uncertainty : dict of float
+    uncertainty : path or dict
         as `identify` takes them.
     noise : dict of float
         as `identify` takes them.
@@ -274,7 +275,7 @@ def plan(
     text = _core.plan(
         robot,
         poses,
-        _inputs.numbers(uncertainty),
+        _inputs.uncertainty(uncertainty),
         _inputs.numbers(noise),
         count,
         criterion,
