@@ -1,6 +1,7 @@
 //! Workspaces of robots with free coordinates.
 
-use cdpr_assess::{Further, Workspace, compute_workspace};
+use crate::workspace::caroca;
+use cdpr_assess::{Further, Workspace, WorkspaceSummary, compute_workspace};
 use cdpr_robot::{Coordinate, Parameter, Robot, Rotation3};
 use cdpr_statics::{Load, StaticsError, WantedPose, deflection, inverse};
 use cdpr_study::{ErrorModel, Grid, GridAxis};
@@ -82,4 +83,37 @@ fn a_position_that_is_held_upside_down_alone_is_unstable() {
         assert_eq!(found.outcome.as_ref().err().map(kind), (!upright).then_some("unstable"));
         assert_eq!(recomputed.as_ref().err().map(kind), (!upright).then_some("unstable"));
     }
+}
+
+#[test]
+fn tensions_recomputed_above_a_breaking_force_hold_nothing() {
+    let mut robot = caroca();
+    robot.cables.iter_mut().for_each(|cable| cable.properties.breaking_force = Some(700.0));
+    let at = |z| GridAxis { min: z, max: z, points: 1 };
+    let workspace = Workspace {
+        robot: &robot,
+        grid: Grid::new([at(0.0), at(0.0), at(1.75)]).unwrap(),
+        rotation: Rotation3::identity(),
+        load: Load::payload(50.0),
+        tolerances: None,
+        free: &[],
+        further: Further::default(),
+    };
+    let row = |workspace: &Workspace| {
+        let found = compute_workspace(workspace, &|| (), &|| false).unwrap();
+        WorkspaceSummary::new(workspace, &found).rows.remove(0)
+    };
+    let breaking = row(&workspace);
+    assert_eq!(breaking.status, "beyond_limits");
+    let held = breaking.recomputed_status == Some("held");
+    assert!(!held || breaking.recomputed_greatest_tension.unwrap() <= 700.0 * (1.0 + 1e-9));
+    // A platform on few cables hangs as it does, whatever breaks.
+    let mut few = Robot::from_library("four-cables").unwrap();
+    few.cables.iter_mut().for_each(|cable| cable.properties.breaking_force = Some(1.0));
+    let grid = Grid::new([at(0.5), at(0.3), at(2.0)]).unwrap();
+    let workspace =
+        Workspace { robot: &few, grid, free: &[Coordinate::Roll, Coordinate::Pitch], ..workspace };
+    let breaking = row(&workspace);
+    assert_eq!((breaking.status, breaking.recomputed_status), ("beyond_limits", Some("beyond_limits")));
+    assert!(breaking.recomputed_reason.unwrap().contains("above its breaking force, 1 N"));
 }

@@ -6,7 +6,7 @@ use cdpr_assess::{
 };
 use cdpr_dynamics::{Modes, Wanted};
 use cdpr_evidence::accept;
-use cdpr_robot::{Coordinate, Matrix3, Parameter, Pose, Robot, Rotation3, Vector3, Wrench};
+use cdpr_robot::{Matrix3, Parameter, Pose, Robot, Rotation3, Vector3, Wrench};
 use cdpr_statics::{DirectProblem, Load, StaticsError, deflection, derivatives, inverse};
 use cdpr_study::{ErrorModel, Grid, GridAxis};
 use serde_json::Value;
@@ -118,39 +118,6 @@ fn every_position_is_what_the_models_say_of_it() {
         assert!(parts.iter().all(|part| part / variance <= dominant.share + 1e-12));
         assert!((variance.sqrt() - dominant.std).abs() < 1e-12 * dominant.std);
     }
-}
-
-#[test]
-fn tensions_recomputed_above_a_breaking_force_hold_nothing() {
-    let mut robot = caroca();
-    robot.cables.iter_mut().for_each(|cable| cable.properties.breaking_force = Some(700.0));
-    let at = |z| GridAxis { min: z, max: z, points: 1 };
-    let workspace = Workspace {
-        robot: &robot,
-        grid: Grid::new([at(0.0), at(0.0), at(1.75)]).unwrap(),
-        rotation: Rotation3::identity(),
-        load: Load::payload(50.0),
-        tolerances: None,
-        free: &[],
-        further: Further::default(),
-    };
-    let row = |workspace: &Workspace| {
-        let found = compute_workspace(workspace, &|| (), &|| false).unwrap();
-        WorkspaceSummary::new(workspace, &found).rows.remove(0)
-    };
-    let breaking = row(&workspace);
-    assert_eq!(breaking.status, "beyond_limits");
-    let held = breaking.recomputed_status == Some("held");
-    assert!(!held || breaking.recomputed_greatest_tension.unwrap() <= 700.0 * (1.0 + 1e-9));
-    // A platform on few cables hangs as it does, whatever breaks.
-    let mut few = Robot::from_library("four-cables").unwrap();
-    few.cables.iter_mut().for_each(|cable| cable.properties.breaking_force = Some(1.0));
-    let grid = Grid::new([at(0.5), at(0.3), at(2.0)]).unwrap();
-    let workspace =
-        Workspace { robot: &few, grid, free: &[Coordinate::Roll, Coordinate::Pitch], ..workspace };
-    let breaking = row(&workspace);
-    assert_eq!((breaking.status, breaking.recomputed_status), ("beyond_limits", Some("beyond_limits")));
-    assert!(breaking.recomputed_reason.unwrap().contains("above its breaking force, 1 N"));
 }
 
 #[test]

@@ -119,9 +119,11 @@ pub fn out_of_plane(robot: &Robot, quantity: &str, pose: &Pose) -> Option<Doubt>
     let offsets = cables.iter().map(|of| of.exit_point[normal] - (pose.rotation * of.anchor_point)[normal]);
     let offsets: Vec<f64> = offsets.collect();
     let at = offsets.iter().sum::<f64>() / offsets.len() as f64;
-    // Cables may be side by side.
-    let apart =
-        offsets.iter().map(|offset| (offset - at).abs()).fold(OUT_OF_PLANE * frame_size(robot), f64::max);
+    // Cables may be side by side, and the tool behind all of them.
+    let apart = offsets
+        .iter()
+        .map(|offset| 3.0 * (offset - at).abs())
+        .fold(OUT_OF_PLANE * frame_size(robot), f64::max);
     let off = pose.position[normal] - at;
     (off.abs() > apart).then(|| {
         Doubt::new(

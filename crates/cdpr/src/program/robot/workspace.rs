@@ -250,6 +250,20 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
 }
 
 /// The share of the positions that is held, and what ranges over them.
+/// Where no motion is the platform's own.
+fn print_shared(summary: &WorkspaceSummary) {
+    let shares = || summary.rows.iter().filter_map(|row| row.platform_share);
+    let shared = shares().filter(|share| *share < OWN).count();
+    if shared > 0 {
+        print_sentence(&format!(
+            "At {shared} of {} positions the platform swings in many motions of the cables, and its frequency is that \
+             of the one that has most of it: `platform_share` is down to {} % there.",
+            shares().count(),
+            significant(100.0 * shares().fold(1.0, f64::min), 2)
+        ));
+    }
+}
+
 fn print(summary: &WorkspaceSummary) {
     let all = summary.rows.len();
     let held = summary.status.get(HELD).copied().unwrap_or(0);
@@ -281,16 +295,7 @@ fn print(summary: &WorkspaceSummary) {
     if rows.row_count() > 0 {
         println!("{rows}");
     }
-    let shares = || summary.rows.iter().filter_map(|row| row.platform_share);
-    let shared = shares().filter(|share| *share < OWN).count();
-    if shared > 0 {
-        print_sentence(&format!(
-            "At {shared} of {} positions the platform swings in many motions of the cables, and its frequency is that \
-             of the one that has most of it: `platform_share` is down to {} % there.",
-            shares().count(),
-            significant(100.0 * shares().fold(1.0, f64::min), 2)
-        ));
-    }
+    print_shared(summary);
     if let Some(shaking) = &summary.shaking {
         print_sentence(&format!("Amplitudes from {}.", shaking.conditions()));
         if shaking.inertia_assumed {

@@ -1,6 +1,7 @@
 //! A table of lengths: where the platform rests for each of its lines.
 
-use super::{Answer, How, Proof, Settings, solve};
+use super::answer::{Answer, How, Proof, solve};
+use super::case::Case;
 use crate::program::answer::OutOfLimits;
 use crate::program::arguments::poses::{self, pose_numbers};
 use crate::program::arguments::{Format, print_record};
@@ -39,21 +40,25 @@ struct Rows<'a> {
     table: LengthTable,
 }
 
-/// Answers each line of the table.
-pub(super) fn run(settings: &Settings, robot: &Robot, path: &Path) -> Result<Ending, ProgramError> {
-    let rows = Rows { robot, how: settings.how()?, table: length_file(path, robot)? };
+/// Answers each line of the table of a robot, with what all lines have in common.
+pub(super) fn run(
+    format: Format,
+    (robot, path): (&Robot, &Path),
+    common: &Case,
+    how: How,
+) -> Result<Ending, ProgramError> {
+    let rows = Rows { robot, how, table: length_file(path, robot)? };
     let LengthTable { lengths, starts, .. } = &rows.table;
-    if starts.is_some() && settings.pose.given()?.is_some() {
+    if starts.is_some() && common.pose.is_some() {
         let why = "--pose: the table has poses, at which its searches start: expected one of them";
         return Err(ProgramError::Usage(why.to_owned()));
     }
-    let common = settings.case(Vec::new())?;
     common.question(robot);
     if let Some(starts) = starts {
         questions::about_poses(robot, "the table", starts);
     }
     ask_first("line", lengths.iter().map(|lengths| plausible::lengths(robot, lengths).into_iter().collect()));
-    let (format, bar) = (settings.printing.format(), progress(lengths.len(), "rows"));
+    let bar = progress(lengths.len(), "rows");
     let (mut ending, mut doubts) = (Ending::Well, Vec::new());
     for (number, chunk) in lengths.chunks(CHUNK).enumerate() {
         let answer = |(k, lengths): (usize, &Vec<f64>)| {
