@@ -74,22 +74,6 @@ fn a_prior_of_the_frame_is_about_the_base_frame() {
 }
 
 #[test]
-fn a_coordinate_with_the_other_sign_is_no_turn_of_the_frame() {
-    let case = &cases()[0];
-    let mut rows = simulate(&case.simulated(&drawn(&case.model(), 1), &case.poses(20), EXTERNAL, 1)).unwrap();
-    for reading in rows.iter_mut().flat_map(|row| &mut row.readings) {
-        if reading.quantity == Quantity::Position(Axis::Y) {
-            reading.value = -reading.value;
-        }
-    }
-    // Rotations would be those of the mirror image.
-    rows.iter_mut().for_each(|row| row.rotation = None);
-    let unknowns = Unknowns::of_model(&case.model());
-    let error = fit(&case.robot, &rows, &unknowns, &FitSettings::default()).unwrap_err().to_string();
-    assert!(error.contains("y has the other sign") && !error.contains("rotation by"), "{error}");
-}
-
-#[test]
 fn measurements_in_another_frame_are_refused_with_a_hint() {
     for case in cases().iter().filter(|case| case.name != "GRAB") {
         let mut rows =

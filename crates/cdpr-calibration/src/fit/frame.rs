@@ -13,12 +13,6 @@ const FAR: f64 = 0.05;
 /// Share of the misfit that is left where a rigid motion explains it.
 const LEFT: f64 = 0.2;
 
-/// Points are in a plane that are no farther from it than this share of their spread.
-const FLAT: f64 = 0.05;
-
-/// Cosine of the angle within which a plane is turned over.
-const TURNED_OVER: f64 = 0.9;
-
 /// Rows that are looked at.
 const FEW: usize = 12;
 
@@ -51,36 +45,6 @@ impl RigidMotion {
         let misfit = squares.map(|sum| (sum / count).sqrt());
         Some(Self { rotation: Rotation3::from_matrix_unchecked(turn), translation, misfit })
     }
-}
-
-/// The axis whose measured coordinate, with its sign changed, is the modelled one up to a translation, to
-/// this root mean square [m].
-fn other_sign(pairs: &[(Vector3<f64>, Vector3<f64>)], close: f64) -> Option<Axis> {
-    let left = |axis: &Axis| {
-        let apart: Vec<Vector3<f64>> = pairs
-            .iter()
-            .map(|(model, measured)| {
-                let mut mirrored = *measured;
-                mirrored[axis.index()] = -mirrored[axis.index()];
-                mirrored - model
-            })
-            .collect();
-        let mean = apart.iter().sum::<Vector3<f64>>() / apart.len() as f64;
-        (apart.iter().map(|one| (one - mean).norm_squared()).sum::<f64>() / apart.len() as f64).sqrt()
-    };
-    let best = Axis::ALL.into_iter().map(|axis| (axis, left(&axis))).min_by(|a, b| a.1.total_cmp(&b.1));
-    best.filter(|(_, left)| *left <= close).map(|(axis, _)| axis)
-}
-
-/// Whether the modelled positions are in a plane, which a rotation turns over.
-fn turns_over(pairs: &[(Vector3<f64>, Vector3<f64>)], rotation: &Rotation3<f64>) -> bool {
-    let middle = pairs.iter().map(|(at, _)| at).sum::<Vector3<f64>>() / pairs.len() as f64;
-    let scatter: Matrix3<f64> = pairs.iter().map(|(at, _)| (at - middle) * (at - middle).transpose()).sum();
-    let eigen = scatter.symmetric_eigen();
-    let least = eigen.eigenvalues.imin();
-    let normal = eigen.eigenvectors.column(least).into_owned();
-    let is_flat = eigen.eigenvalues[least] <= FLAT * FLAT * eigen.eigenvalues.max();
-    is_flat && (rotation * normal).dot(&normal) < -TURNED_OVER
 }
 
 impl Problem<'_> {
@@ -124,24 +88,11 @@ impl Problem<'_> {
         if before < far || after > LEFT * before {
             return Ok(());
         }
-        if let Some(axis) = other_sign(&pairs, LEFT * before) {
-            let expected = format!(
-                "positions in the base frame of the robot: with the lengths they fit once {axis} has the \
-                 other sign, to {before:.3} m as they are"
-            );
-            return Err(CalibrationError::Column { column: format!("{axis}_m"), expected });
-        }
-        let over = if turns_over(&pairs, &rotation) {
-            "; it turns over the plane in which these positions are: are two coordinates exchanged, or is \
-             one seen from the other side?"
-        } else {
-            ""
-        };
         let [x, y, z] = [translation.x, translation.y, translation.z];
         let expected = format!(
             "positions in the base frame of the robot: with the lengths they fit to {after:.3} m after a \
              rotation by {:.1} degrees and a translation by ({x:.3}, {y:.3}, {z:.3}) m, to {before:.3} m \
-             without{over}; seek the place of the tracker, `frame`",
+             without; seek the place of the tracker, `frame`",
             rotation.angle().to_degrees()
         );
         Err(CalibrationError::Column { column: "x_m, y_m, z_m".to_owned(), expected })

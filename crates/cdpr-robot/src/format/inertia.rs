@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(
     untagged,
-    expecting = "expected three rows of three numbers [kg m²], or of a planar robot the moment about the \
-                 axis at right angles to its plane"
+    expecting = "expected three rows of three numbers [kg m²], a diagonal matrix is [[a, 0, 0], [0, b, 0], \
+                 [0, 0, c]], or of a planar robot the moment about the axis at right angles to its plane"
 )]
 #[schemars(inline)]
 pub(super) enum InertiaEntry {

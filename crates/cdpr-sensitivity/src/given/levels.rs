@@ -11,9 +11,8 @@
 //!
 //! (Le1) is the correlation ratio, corrected for chance: 0 in the mean without an effect (T. L. Kelley, *An
 //! unbiased correlation ratio measure*, Proc. Natl. Acad. Sci. 21, 1935). (Le3) is its variance to the first
-//! order and, without an effect, that of a quotient of χ². The interval is (CI7) of
-//! [`interval`](crate::sample::interval), with (Le3) at each θ and f degrees of freedom: fewer where few rows
-//! decide the variance.
+//! order and, without an effect, that of a quotient of χ². The interval is from `1 - θ exp(h / θ)` to `1 - θ + h`,
+//! with `h = t √(Var θ)` and f degrees of freedom: fewer where few rows decide the variance.
 
 use serde::{Deserialize, Serialize};
 
@@ -86,10 +85,11 @@ pub(crate) fn share(column: &[f64], outputs: &[f64], level: f64) -> Result<Estim
     let [own, both, other] = [sum(&squares, &squares), sum(&squares, &squared), sum(&squared, &squared)]
         .map(|of| of / variance.powi(2));
     let scale = n / freedoms;
-    let deviation = |noise: f64| {
-        let terms = (scale * scale * own - 2.0 * noise * scale * both + noise * noise * other).max(0.0);
-        (terms / (n * freedoms) + 2.0 * (m as f64 - 1.0) * (noise / n).powi(2)).sqrt()
-    };
+    let terms = (scale * scale * own - 2.0 * noise * scale * both + noise * noise * other).max(0.0);
+    let of_noise = terms / (n * freedoms) + 2.0 * (m as f64 - 1.0) * (noise / n).powi(2);
     let freedoms = freedoms * (3.0 * effective(&squared) / n).min(1.0);
-    Estimate::of_rest(noise, deviation, freedoms.max(1.0), level)
+    let estimate = Estimate::of_variance(1.0 - noise, of_noise, freedoms.max(1.0), level)?;
+    let half = estimate.high - estimate.value;
+    let low = if noise > 0.0 { 1.0 - noise * (half / noise).exp() } else { estimate.low };
+    Ok(Estimate { low, ..estimate })
 }
