@@ -25,7 +25,7 @@ impl Findings<'_> {
             return;
         }
         let Some(inertia) = platform.inertia else { return };
-        let normal = self.robot.plane.map(|plane| plane.normal());
+        let normal = self.robot.plane.map(cdpr_robot::Plane::normal);
         let square = |cable: &RobotCable| {
             let mut apart = cable.anchor_point - platform.center_of_mass;
             normal.iter().for_each(|k| apart[*k] = 0.0);

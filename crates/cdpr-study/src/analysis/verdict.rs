@@ -145,7 +145,8 @@ impl Recommendation {
     /// What a regression of ranks leaves out, where that is much.
     fn missed_by_ranks(&self) -> Option<String> {
         const MOST: f64 = 0.8;
-        let explained: f64 = self.inputs.iter().filter_map(|of| of.value).sum();
+        // No value has the sum -0.
+        let explained = self.inputs.iter().filter_map(|of| of.value).fold(0.0, |sum, value| sum + value);
         (self.basis == Basis::Ranks && explained < MOST).then(|| {
             format!(
                 "The regression of ranks explains {:.0} % of the variance: an input whose effect is not to raise or \
