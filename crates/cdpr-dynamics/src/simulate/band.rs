@@ -149,7 +149,7 @@ mod tests {
         }
         let right: Vec<_> = (0..size).map(|i| Complex::new(i as f64, 1.0)).collect();
         let mut found: Vec<Complex<f64>> = right.clone();
-        let factored = one.map(&other, |one, other| Complex::new(one, other)).factor().unwrap();
+        let factored = one.map(&other, Complex::new).factor().unwrap();
         factored.forward(&mut found, 0);
         factored.backward(&mut found);
         let [mut sums, mut others] = [0; 2].map(|_| vec![Complex::new(0.0, 0.0); size]);
