@@ -3,9 +3,9 @@
 //! Linearized at forces f_i that need not yet fit the pose, cable i gives `df_i = K_i (c_i + d(h_i, z_i))`,
 //! (S2) of `equations/cable.rs`.
 //!
-//! Put into the balance of the platform with the predicted forces `f_i + K_i c_i` this leaves six equations for
-//! (dp, dφ), whose matrix is the stiffness (S5) with the forces f_i as they are. An iteration evaluates each
-//! catenary once and solves one 6 x 6 system.
+//! Put into the balance of the platform with the predicted forces `f_i + K_i c_i` this leaves six equations
+//! for (dp, dφ), whose matrix is the stiffness (S5) with the forces f_i as they are. An iteration evaluates
+//! each catenary once and solves one 6 x 6 system.
 //!
 //! Fewer cables than free motions may leave motions that nothing resists, and constrained motions have no
 //! equation. Such a robot takes steps by the singular values of the matrix: motions without resistance and

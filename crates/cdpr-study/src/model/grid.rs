@@ -110,7 +110,7 @@ impl Grid {
     pub fn within(robot: &Robot, spans: [GridSpan; 3]) -> Result<Self, StudyError> {
         let frame = frame(robot);
         let size = frame.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
-        // The frame says little about the plane of a planar robot: its pulleys may be beside it.
+        // The frame says little about the plane of a planar robot: its pulleys may be next to it.
         let plane = robot.plane_offset().filter(|(normal, _)| spans[*normal].is_left_out());
         let is_flat = plane.is_some() || spans.iter().any(GridSpan::is_point);
         let usual = if is_flat { GridSpan::IN_PLANE } else { GridSpan::IN_BOX };

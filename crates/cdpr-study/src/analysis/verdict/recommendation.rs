@@ -16,11 +16,11 @@
 //! - (Rc1): T_g is the index of the expansion g, which has the share 1 - e of the output's variance. What an
 //!   input takes part in is a projection of the output, √T its norm, and the rest of the output, which g lacks,
 //!   has the norm √e.
-//! - (Rc2): by C. E. Bonferroni: a verdict on many inputs is as certain as one on a single input, also by both bases.
+//! - (Rc2): by C. E. Bonferroni: a verdict on many inputs is as certain as one on a single input.
 //!
-//! Of derivatives and Sobol' indices the one that settles more inputs is recommended, derivatives where both settle as
-//! many; an input that it leaves open has the bounds of the other where these settle it. The expansion follows where
-//! neither settles any, and then Shapley effects or ranks, which have no bounds and put the inputs in an order.
+//! Of derivatives and Sobol' indices the one that settles more inputs is recommended, derivatives where both
+//! settle as many; an input that it leaves open has the bounds of the other where these settle it. The
+//! expansion follows, then Shapley effects or ranks, which have no bounds and put the inputs in an order.
 
 use cdpr_sensitivity::is_resolved;
 use serde::{Deserialize, Serialize};
