@@ -118,13 +118,12 @@ def main():
         starts.append(x)
         readings.append(tensions + TENSION_STD * rng.standard_normal(len(tensions)))
     unknowns, covariance = batch(starts, lengths, readings)
-    _, _, rows, per_length = sample(starts[0], lengths[0], np.array([0, 0, 0, 0, 1.0]))
-    first_covariance = rows @ np.diag(PRIOR**2.0) @ rows.T + noise(per_length)
-    first = readings[0] - model(starts[0], lengths[0], np.array([0, 0, 0, 0, 1.0]))[1]
-    gain = np.diag(PRIOR**2.0) @ rows.T @ np.linalg.inv(first_covariance)
+    first, first_covariance = batch(starts[:1], lengths[:1], readings[:1])
+    _, tensions, _, per_length = sample(starts[0], lengths[0], first)
+    left, away = readings[0] - tensions, (first - [0, 0, 0, 0, 1]) / PRIOR
     result = {
-        "about": "CAROCA with cables without weight. `first` is the extended Kalman filter after one sample and the "
-        "chi-square of that sample, `batch` the least squares of all; unknowns: mass [kg], moment about the "
+        "about": "CAROCA with cables without weight. `first` is the least squares of one sample and its "
+        "chi-square, `batch` that of all; unknowns: mass [kg], moment about the "
         "platform's centre of mass [kg m], modulus as a multiple. Written by observer.py.",
         "tension_std": TENSION_STD,
         "length_std": LENGTH_STD,
@@ -134,9 +133,9 @@ def main():
         "lengths": np.array(lengths).tolist(),
         "tensions": np.array(readings).tolist(),
         "first": {
-            "unknowns": (np.array([0, 0, 0, 0, 1.0]) + gain @ first).tolist(),
-            "chi_square": float(first @ np.linalg.solve(first_covariance, first)),
-            "covariance": (np.diag(PRIOR**2.0) - gain @ rows @ np.diag(PRIOR**2.0)).tolist(),
+            "unknowns": first.tolist(),
+            "chi_square": float(left @ np.linalg.solve(noise(per_length), left) + away @ away),
+            "covariance": first_covariance.tolist(),
         },
         "batch": {"unknowns": unknowns.tolist(), "covariance": covariance.tolist()},
     }

@@ -32,7 +32,7 @@ pub use series::{Difference, Energy, Excursion, Sample, Series};
 /// The motion of a robot from rest under events.
 ///
 /// It is computed twice, with [`Settings::discretization`] and with a coarser one: their differences are in
-/// `Series::difference`. Where cables go slack, it is computed with finer ones until two of them agree.
+/// `Series::difference`. Without it, it is computed with finer ones until two of them agree.
 ///
 /// # Errors
 /// [`DynamicsError::Invalid`] for settings and events that are not possible; [`DynamicsError::Stalled`] where
@@ -75,15 +75,25 @@ pub fn simulate_controlled(
         Ok::<_, DynamicsError>((begun, series))
     };
     let (fine, coarse) = rayon::join(|| both(elements, tolerance), || both(coarser, coarse));
-    let ((begun, mut fine), (_, coarse)) = (fine?, coarse?);
+    let ((mut begun, mut fine), (_, coarse)) = (fine?, coarse?);
     fine.difference = fine.difference_to(&coarse);
     let size = problem.robot().platform_size();
+    let away = |by: &Difference| by.position.max(size * by.rotation);
+    let is_chosen = settings.discretization.is_some();
+    let has_chain =
+        |series: &Series, elements| series.discretizations.contains(&Discretization::chain(elements));
+    for elements in FINER {
+        if is_chosen || has_chain(&fine, CHAINS[1]) || away(&fine.difference) <= ENOUGH_TAUT {
+            break;
+        }
+        let taut = Discretization { elements, ..Discretization::TAUT };
+        let finer;
+        (begun, finer) = both((taut, Some(Discretization::chain(CHAINS[1]))), tolerance)?;
+        fine = Series { difference: finer.difference_to(&fine), ..finer };
+    }
     for pair in CHAINS[1..].windows(2) {
-        let [differs, moves] =
-            [&fine.difference, &fine.motion()].map(|by| by.position.max(size * by.rotation));
-        let has_chain = fine.discretizations.contains(&Discretization::chain(pair[0]));
-        let has_chain = has_chain && settings.discretization.is_none();
-        if !has_chain || differs <= (ENOUGH[0] * moves).max(ENOUGH[1]) {
+        let enough = (ENOUGH[0] * away(&fine.motion())).max(ENOUGH[1]);
+        if is_chosen || !has_chain(&fine, pair[0]) || away(&fine.difference) <= enough {
             break;
         }
         let finer = begun.end(Some(Discretization::chain(pair[1])))?;
@@ -91,6 +101,13 @@ pub fn simulate_controlled(
     }
     Ok(fine)
 }
+
+/// Elements of taut cables that are tried in turn after [`Discretization::TAUT`].
+const FINER: [usize; 2] = [6, 12];
+
+/// They are fine enough where a coarser computation moves the platform otherwise by this length [m]: it errs
+/// ten times as much and more.
+const ENOUGH_TAUT: f64 = 1e-4;
 
 /// Elements of the chains that are tried in turn.
 const CHAINS: [usize; 4] = [10, 20, 40, 80];

@@ -1,7 +1,9 @@
 //! Motions of robots of the library.
 
 use crate::robots::{ROBOTS, free_coordinates, robot, wanted};
-use cdpr_dynamics::simulate::{Change, CutAt, Event, Profile, Series, Settings, events_from_json, simulate};
+use cdpr_dynamics::simulate::{
+    Change, CutAt, Discretization, Event, Profile, Series, Settings, events_from_json, simulate,
+};
 use cdpr_dynamics::{Modes, Wanted};
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{DirectProblem, DirectStart, Equilibrium, Load, Vector6, inverse};
@@ -120,6 +122,24 @@ fn cables_part_and_winches_turn_on_every_robot() {
             }
         }
     }
+}
+
+/// Long heavy cables have waves that the elements of others do not resolve.
+#[test]
+fn taut_cables_get_as_many_elements_as_their_motion_needs() {
+    let (file, _, free) = ROBOTS[2];
+    let mut robot = robot(file);
+    robot.tension_limits.min = 20_000.0;
+    let (lengths, rest) = rest(&robot, [20.0, -10.0, 140.0], free);
+    let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
+    let events = [at(0.0, Change::Displace(Vector6::new(0.1, -0.05, 0.08, 0.01, -0.02, 0.015)))];
+    let settings = Settings { damping: 1e-3, rate: 7.3, ..Settings::until(3.0) };
+    let taut = Settings { discretization: Some(Discretization { elements: 10, degree: 7 }), ..settings };
+    let [own, fine] = [settings, taut].map(|by| simulate(&problem, &rest, &events, &by).unwrap());
+    let off = own.samples.iter().zip(&fine.samples);
+    let off = off.map(|(own, fine)| own.pose.motion_to(&fine.pose).norm()).fold(0.0, f64::max);
+    println!("{off:e} {:?} {:?}", own.discretizations[0], own.difference);
+    assert!(off < 1e-5 && own.discretizations[0].elements > 3, "{off:e}");
 }
 
 /// Elements of slack cables lose and regain their tension. Steps of the method for smooth motions take seven

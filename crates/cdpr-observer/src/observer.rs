@@ -16,7 +16,8 @@
 //! about the modulus. χ²(A') <= χ²(A). Samples of which χ²(A) is beyond its quantile do not change the
 //! estimate, and for them χ²(A') is that of the best load, not of the derivatives at the last one. c of them
 //! in a row are a changed load, whose information begins with A', or, if χ²(A') is beyond the quantile, too,
-//! a fault.
+//! a fault. The first sample changes nothing that was known: it is explained if some plausible load does, and
+//! the estimate begins with the best one.
 
 use crate::alarm::{Alarm, CableState, Run, Thresholds};
 use crate::rest::{MODULUS, Rest, Unknowns};
@@ -237,7 +238,8 @@ impl LoadObserver {
         any_load[(MODULUS, MODULUS)] = 1.0 / information.try_inverse()?[(MODULUS, MODULUS)];
         let (change, factor) = normal.chi_square(&information)?;
         let (mut consistency, _) = normal.chi_square(&any_load)?;
-        let follows = change <= self.thresholds.chi_square;
+        let begins = self.information == prior;
+        let follows = !begins && change <= self.thresholds.chi_square;
         if follows {
             self.information = information + normal.matrix;
             self.scaled = bounded(self.scaled + factor.solve(&normal.right));
@@ -251,15 +253,17 @@ impl LoadObserver {
             self.rest.pose = before.0;
             self.rest.solve(lengths, &unknowns(&before.1, &self.prior))?;
         }
-        (observed.consistency, observed.change) = (consistency, change);
+        (observed.consistency, observed.change) = (consistency, if begins { consistency } else { change });
         let is_explained = consistency <= self.thresholds.chi_square;
         let is_inconsistent = self.inconsistent.count(!is_explained, consecutive);
-        let is_changed = self.changed.count(!follows && is_explained, consecutive);
+        let is_changed = self.changed.count(!begins && !follows && is_explained, consecutive);
         let lost = self.cable_states(lengths, tensions, is_inconsistent);
-        if let (true, Some((_, scaled, normal))) = (is_changed, found) {
+        if let (true, Some((_, scaled, normal))) = (is_changed || begins && is_explained, found) {
             self.changed = Run::default();
             (self.scaled, self.information) = (scaled, any_load + normal.matrix);
-            observed.alarm = Some(lost.map_or(Alarm::LoadChanged, Alarm::CableSlack));
+            if is_changed {
+                observed.alarm = Some(lost.map_or(Alarm::LoadChanged, Alarm::CableSlack));
+            }
         }
         if is_inconsistent {
             observed.alarm = Some(lost.map_or(Alarm::Inconsistent, Alarm::CableLost));

@@ -34,7 +34,7 @@ fn the_recursive_estimate_is_that_of_batch_least_squares() {
         let moment = estimate.center.map(|center| center.map_or(f64::NAN, |of| of * estimate.payload));
         [estimate.payload, moment[0], moment[1], moment[2], estimate.modulus]
     };
-    // One sample: the digits of the closed form.
+    // One sample: the digits of its own least squares.
     let observed = observer.update(&lengths[0], &tensions[0]).unwrap();
     let first = &file["first"];
     let chi_square = first["chi_square"].as_f64().unwrap();

@@ -2,8 +2,11 @@
 
 use crate::common::{follow, loaded, robot};
 use cdpr_observer::{Alarm, CableState, LoadObserver, ObserverSetting};
-use cdpr_robot::{Plane, Pose, Vector3};
-use cdpr_statics::{Load, StaticsError, inverse};
+use cdpr_robot::{Plane, Pose, Robot, Vector3};
+use cdpr_statics::{Load, StaticsError, deflection, inverse};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::StandardNormal;
 use std::hint::black_box;
 
 #[test]
@@ -130,6 +133,30 @@ fn a_slack_cable_of_the_model_is_no_alarm_and_a_changed_load_is_one() {
     }
     assert_eq!(observer.cable(1), Some(CableState::Slack));
     assert_eq!(observer.cable(8), None);
+}
+
+#[test]
+fn a_load_that_is_there_from_the_first_sample_is_no_alarm() {
+    // Where its cables become slack, or lose their sag, derivatives at no load say little of a load.
+    let wall = Robot::from_json(include_str!("../../../data/reference/robots/wall.json")).unwrap();
+    let setting = ObserverSetting::new(4, 1.5, 13.0, 0.1);
+    for mass in [2.0, 3.0, 5.0] {
+        let found = deflection(&wall, &Pose::at(1.5, 0.0, 1.2), &Load::payload(mass)).unwrap();
+        let (lengths, tensions) = (&found.lengths, found.loaded.equilibrium.tensions());
+        for seed in 0..60 {
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            let mut observer =
+                LoadObserver::new(&wall, lengths, &Pose::at(1.5, 0.0, 1.2), setting.clone()).unwrap();
+            for k in 0..30 {
+                let read: Vec<f64> =
+                    tensions.iter().map(|of| of + 1.5 * rng.sample::<f64, _>(StandardNormal)).collect();
+                let observed = observer.update(lengths, &read).unwrap();
+                assert_eq!(observed.alarm, None, "{mass} kg, seed {seed}, sample {k}");
+            }
+            let estimate = observer.estimate();
+            assert!((estimate.payload - mass).abs() < 5.0 * estimate.payload_std, "{estimate:?}");
+        }
+    }
 }
 
 #[test]

@@ -54,7 +54,7 @@ pub struct Settings {
     /// Ratio τ of the viscous to the elastic modulus of the cables [s].
     pub damping: f64,
     /// Elements of each cable. Without, a cable has [`Discretization::TAUT`], or more of them where its
-    /// tension at rest needs more. From the step on in which one goes slack, all are chains of straight
+    /// tension at rest needs more, or where fewer move the platform otherwise by more than 0.1 mm. From the step on in which one goes slack, all are chains of straight
     /// elements: 20; 40 or 80 where half as many move the platform otherwise by more than 0.2 % of its motion
     /// and more than 0.3 mm.
     pub discretization: Option<Discretization>,

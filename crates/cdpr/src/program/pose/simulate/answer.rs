@@ -194,13 +194,18 @@ impl Answer {
             significant(rotation_rad.to_degrees(), 2),
             significant(*tension_n, 2)
         );
+        let Energy { drift_j, kinetic_j, lost_j, .. } = self.energy;
         println!(
             "{} a cable, {}; energy off by {} J of {} J.",
             self.elements(),
             counted(self.steps, "step"),
-            significant(self.energy.drift_j, 2),
-            significant(self.energy.kinetic_j, 3)
+            significant(drift_j, 2),
+            significant(kinetic_j, 3)
         );
+        if lost_j > 0.0 {
+            let of_chains = if self.degree.contains(&1) { ", with that which chains need" } else { "" };
+            println!("Damping took {} J{of_chains}.", significant(lost_j, 3));
+        }
     }
 
     /// Elements of a cable in words, those of most cables first.
