@@ -22,7 +22,7 @@ pub const HELD: &str = "held";
 
 /// A row of `NAME.csv`: position [m], rotation as a unit quaternion, statistics of the output in its unit.
 /// Values that do not exist are empty.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs)]
 pub struct PoseRow {
     /// Name of the sampling at this pose, of its blocks and of its table.
@@ -66,7 +66,7 @@ pub struct PoseRow {
 
 /// Summary of all poses of a sampling, serialized into `summary.json`. `NAME.csv` beside it has a row for
 /// each pose.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PosesSummary {
     /// Title.
@@ -132,20 +132,13 @@ pub fn observe_poses(
     };
     let mut summary = PosesSummary {
         title: spec.title.clone(),
-        verdict: PartVerdict::default(),
         output: study.file.output,
         poses: count,
         grid: match poses {
             PoseSet::Grid(grid) => Some(grid),
             _ => None,
         },
-        status: BTreeMap::new(),
-        observations: 0,
-        failed: BTreeMap::new(),
-        mean: None,
-        std: None,
-        out_of_limits: 0,
-        dominant: BTreeMap::new(),
+        ..PosesSummary::default()
     };
     let one = |number: usize| {
         let name = poses.name(name, number);
@@ -243,28 +236,7 @@ impl PoseRow {
     /// A pose without any result.
     fn at(sampling: String, pose: &Pose) -> Self {
         let ([x, y, z], [qw, qx, qy, qz]) = (pose.position.into(), pose.quaternion());
-        Self {
-            sampling,
-            x,
-            y,
-            z,
-            qw,
-            qx,
-            qy,
-            qz,
-            status: String::new(),
-            observations: 0,
-            failed: 0,
-            nominal: None,
-            mean: None,
-            std: None,
-            min: None,
-            max: None,
-            dominant: None,
-            dominant_t: None,
-            dominant_effect: None,
-            reason: None,
-        }
+        Self { sampling, x, y, z, qw, qx, qy, qz, ..Self::default() }
     }
 
     fn held(sampling: &Sampling, tally: &Tally) -> Self {
