@@ -74,7 +74,7 @@ pub struct PosesSummary {
     /// The answer in words.
     pub verdict: PartVerdict,
     /// What is observed.
-    #[serde(default, skip_serializing_if = "Output::is_deflection")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub output: Output,
     /// Number of poses.
     pub poses: usize,
@@ -93,7 +93,7 @@ pub struct PosesSummary {
     #[serde(rename = "std_mm")]
     pub std: Option<Extremes>,
     /// Number of poses at which tensions of the nominal robot are above their limits or breaking forces.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub out_of_limits: usize,
     /// Number of poses at which each parameter has the largest t-Student index.
     pub dominant: BTreeMap<String, usize>,
@@ -177,11 +177,6 @@ pub fn observe_poses(
     (summary.mean, summary.std) = (over(|row| row.mean), over(|row| row.std));
     summary.verdict.sentences = summary.sentences();
     Ok(PosesResult { summary, rows })
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref)]
-fn is_zero(count: &usize) -> bool {
-    *count == 0
 }
 
 impl PosesSummary {

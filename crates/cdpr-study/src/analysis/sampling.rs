@@ -31,7 +31,7 @@ pub struct SamplingSummary {
     /// The answer in words, and the recommended measure of the inputs.
     pub verdict: PartVerdict,
     /// What is observed.
-    #[serde(default, skip_serializing_if = "Output::is_deflection")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub output: Output,
     /// Position of the wanted pose [m].
     pub pose: [f64; 3],

@@ -189,7 +189,7 @@ impl Study {
             }
         }
         let is_loaded =
-            file.load() != Load::none() || !file.output.is_deflection() || self.is_in_weather()?;
+            file.load() != Load::none() || file.output != Output::Deflection || self.is_in_weather()?;
         if !(file.payload.is_finite() && file.payload >= 0.0 && is_loaded) {
             let expected = match file.output {
                 Output::Deflection => {
