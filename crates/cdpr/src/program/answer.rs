@@ -37,13 +37,13 @@ impl Residual {
 #[derive(Serialize)]
 pub(crate) struct Borne {
     /// Mass [kg].
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "is_default")]
     payload: f64,
     /// Components in the base frame [N].
-    #[serde(skip_serializing_if = "are_zero")]
+    #[serde(skip_serializing_if = "is_default")]
     force: [f64; 3],
     /// Components about P in the base frame [N m].
-    #[serde(skip_serializing_if = "are_zero")]
+    #[serde(skip_serializing_if = "is_default")]
     moment: [f64; 3],
 }
 
@@ -53,12 +53,8 @@ impl From<&Load> for Borne {
     }
 }
 
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
-}
-
-fn are_zero(values: &[f64; 3]) -> bool {
-    values.iter().all(is_zero)
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 /// A tension outside of what a cable is to bear, or can bear.

@@ -203,10 +203,7 @@ impl Answer {
     }
 
     fn print(&self, heading: &str) {
-        let greatest = |one: &&At, other: &&At| one.amplitude_m_per_n.total_cmp(&other.amplitude_m_per_n);
-        if let (Some(still), Some(most)) =
-            (self.frequencies.first(), self.frequencies.iter().max_by(greatest))
-        {
+        if let (Some(still), Some(most)) = (self.frequencies.first(), self.peak()) {
             let at_rest = match millimetres(still.amplitude_m_per_n).as_str() {
                 NO_BOUND => "at rest nothing resists it".to_owned(),
                 at_rest => format!("at rest it moves it by {at_rest} mm/N"),

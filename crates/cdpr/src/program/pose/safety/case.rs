@@ -82,10 +82,9 @@ pub(super) struct Greatest {
 impl From<BrokenRest> for Rest {
     fn from(rest: BrokenRest) -> Self {
         let (turns_over, (tension, cable)) = (rest.turns_over(), rest.greatest_tension());
-        let [_, _, _, qw, qx, qy, qz] = crate::program::arguments::poses::pose_numbers(&rest.pose);
         Self {
             position: rest.pose.position.into(),
-            rotation: [qw, qx, qy, qz],
+            rotation: rest.pose.quaternion(),
             moved: rest.moved,
             turned_deg: rest.turned.to_degrees(),
             tensions: rest.tensions.iter().map(|ends| ends[0]).collect(),

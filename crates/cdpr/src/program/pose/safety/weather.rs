@@ -96,12 +96,11 @@ struct OneWind {
 
 impl OneWind {
     fn new(found: &InWind) -> Self {
-        let [_, _, _, qw, qx, qy, qz] = crate::program::arguments::poses::pose_numbers(&found.rest.pose);
         let (tension, cable) = found.greatest_tension();
         Self {
             azimuth_deg: found.azimuth.map(|azimuth| azimuth.to_degrees().rem_euclid(360.0)),
             position: found.rest.pose.position.into(),
-            rotation: [qw, qx, qy, qz],
+            rotation: found.rest.pose.quaternion(),
             displacement: found.displacement.into(),
             moved: found.moved(),
             turned_deg: found.turned.to_degrees(),
@@ -190,14 +189,13 @@ impl InWeather {
             (Some(what), _) => format!("{heading} does not bear {winds}: {what}."),
             (None, Some(what)) => format!("{heading} is not known to bear {winds}: {what}."),
         };
-        let towards = |one: &OneWind| {
-            one.azimuth_deg
-                .map_or_else(String::new, |azimuth| format!(" (wind towards {azimuth:.0} degrees)"))
+        let wind = |azimuth: Option<f64>| {
+            azimuth.map_or_else(String::new, |azimuth| format!(" (wind towards {azimuth:.0} degrees)"))
         };
         let farthest = self.farthest.as_ref().map(|one| {
             let [moved, x, y, z] = [one.moved, one.displacement[0], one.displacement[1], one.displacement[2]]
                 .map(|metres| significant(1e3 * metres, 4));
-            format!("The weather moves it up to {moved} mm, by ({x}, {y}, {z}) mm{}.", towards(one))
+            format!("The weather moves it up to {moved} mm, by ({x}, {y}, {z}) mm{}.", wind(one.azimuth_deg))
         });
         let is_tightest = |cable: usize, azimuth: Option<f64>| {
             self.tightest
@@ -211,13 +209,11 @@ impl InWeather {
         };
         let least_safe =
             self.least_safe.as_ref().filter(|of| !is_tightest(of.cable, of.azimuth_deg)).map(|of| {
-                let wind = of
-                    .azimuth_deg
-                    .map_or_else(String::new, |azimuth| format!(" (wind towards {azimuth:.0} degrees)"));
                 format!(
-                    "The least safety factor in it is {}, of cable {}{wind}.",
+                    "The least safety factor in it is {}, of cable {}{}.",
                     significant(of.factor, 3),
-                    of.cable
+                    of.cable,
+                    wind(of.azimuth_deg)
                 )
             });
         let tightest = self.tightest.as_ref().map(|one| {
@@ -225,7 +221,7 @@ impl InWeather {
             let tension = significant(tension, 4);
             format!(
                 "Tensions in the weather reach {tension} N, in cable {cable}{}{}.",
-                towards(one),
+                wind(one.azimuth_deg),
                 factor(cable)
             )
         });

@@ -7,7 +7,7 @@ use crate::program::output::{Ending, print_sentence};
 use crate::program::pose::at_pose::numbered;
 use cdpr_assess::{Compared, ratio_of_best};
 use cdpr_dynamics::moves::{Excited, Move, Residual, SetPoint, Shaper};
-use cdpr_robot::{Robot, broken, counted, shown, significant};
+use cdpr_robot::{Robot, counted, shown, significant};
 use serde::Serialize;
 
 /// A move as a whole.
@@ -98,11 +98,6 @@ pub(super) struct Robots {
     worst_unshaped_amplitude_m: f64,
 }
 
-/// Prints a sentence in lines of 80 columns.
-fn print_lines(text: &str) {
-    broken(text).iter().for_each(|line| println!("{line}"));
-}
-
 fn mm(metres: f64) -> String {
     significant(1e3 * metres, 3)
 }
@@ -138,7 +133,7 @@ impl After {
         } else {
             ", less than the error of the simulation,"
         };
-        print_lines(&format!(
+        print_sentence(&format!(
             "{name}: in {} s after the move P swings by up to {} mm{below}{ratio} of the {} mm without shaper and \
              feed-forward. \
              On the way it is up to {} mm off, without both {} mm. A coarser computation differs by up to {} mm.",
@@ -150,7 +145,7 @@ impl After {
             mm(self.difference_m)
         ));
         if self.is_worse() {
-            print_lines("The shaper makes it worse: take more seconds, fewer modes or none.");
+            print_sentence("The shaper makes it worse: take more seconds, fewer modes or none.");
         }
         for (slack, when) in [(&self.slack_cables, ""), (&self.unshaped_slack_cables, ", without both")] {
             if !slack.is_empty() {
@@ -195,7 +190,7 @@ impl Robots {
                 let worst =
                     worst.map_or_else(String::new, |worst| format!(", the worst one {} %", percent(worst)));
                 let left = percent(ratio);
-                print_lines(&format!(
+                print_sentence(&format!(
                     "{best} of {drawn} robots leave {left} % or less of what they leave without both{worst}. \
                      They swing by up to {} mm, without both by up to {} mm.",
                     mm(self.worst_amplitude_m),
@@ -208,7 +203,7 @@ impl Robots {
             println!("Robots of which a cable loses its tension: {slack}.");
         }
         if let Some(reason) = &self.reason {
-            print_lines(&format!(
+            print_sentence(&format!(
                 "{} could not be followed, the first one: {reason}",
                 counted(*failed, "robot")
             ));
@@ -297,14 +292,14 @@ impl Answer {
                 .map(|(name, times)| if times > 1 { format!("{name} ({times} times)") } else { name });
             let of: Vec<_> = of.collect();
             let impulses = counted(self.impulses.len(), "impulse");
-            print_lines(&format!(
+            print_sentence(&format!(
                 "Shaper for {} Hz: {impulses} in {} s.",
                 of.join(" and "),
                 significant(*duration, 3)
             ));
         }
         if self.is_unshaped {
-            print_lines(&format!(
+            print_sentence(&format!(
                 "No shaper: of those that take less than {seconds} s none leaves less that swings."
             ));
         }
@@ -313,7 +308,7 @@ impl Answer {
         } else {
             format!("feed-forward up to {} mm", mm(self.feed_forward_m))
         };
-        print_lines(&format!(
+        print_sentence(&format!(
             "In motion tensions are {} N at the platform to {} N at the exits; {of}.",
             significant(self.least_tension_n, 3),
             significant(self.greatest_exit_tension_n, 4)
