@@ -280,6 +280,15 @@ impl DesignProblem {
         self.variables.iter().enumerate().filter_map(of)
     }
 
+    /// Values with those of the variables with bounds at a place in the box, whose sides are 1.
+    pub(crate) fn placed(&self, mut values: Vec<f64>, place: &[f64]) -> Vec<f64> {
+        for ((j, [low, high]), u) in self.bounded().zip(place) {
+            // Exact at both ends.
+            values[j] = low * (1.0 - u) + high * u;
+        }
+        values
+    }
+
     /// Number of combinations of the choices; 1 without any, `None` where it is beyond all bounds.
     pub(crate) fn configurations(&self) -> Option<usize> {
         self.variables.iter().try_fold(1_usize, |count, variable| count.checked_mul(variable.count()))
