@@ -121,11 +121,8 @@ pub fn read_region(folder: &Path) -> Result<FoundRegion, StudyError> {
         unit: String,
     }
     let read = |name: &str| read_result(folder, name);
-    let wrong = |name: &str, field: &str, value: String, expected: &str| StudyError::Invalid {
-        path: folder.join(name),
-        field: field.to_owned(),
-        value,
-        expected: expected.to_owned(),
+    let wrong = |name: &str, field: &str, value: String, expected: &str| {
+        StudyError::invalid(&folder.join(name), field, value, expected)
     };
     let summary: Summary = serde_json::from_slice(&read(WORKSPACE)?)
         .map_err(|error| wrong(WORKSPACE, "the file", error.to_string(), "the summary of a workspace"))?;
