@@ -117,9 +117,7 @@ pub use observe::status::{
 };
 pub use results::read::Results;
 pub use results::table::{ObservationTable, Rows, TableFormat};
-pub use results::write::{
-    Timings, write_figure, write_poses, write_sensitivity, write_summary, write_surface, write_timings,
-};
+pub use results::write::{Timings, write_figure, write_summary, write_surface, write_timings};
 pub use run::{Draw, Drawable, Figure, Run, Watcher, run};
 pub use store::block::BLOCK;
 pub use store::blocks::Blocks;

@@ -131,7 +131,7 @@ fn read_summary(path: &Path) -> Result<Summary, StudyError> {
     from_json(&format!("{summary:#}")).map_err(|source| StudyError::Format { path: path.to_owned(), source })
 }
 
-/// Reads the table that `write_poses` has written.
+/// Reads the table of a sampling at several poses.
 fn read_poses(path: &Path, text: &str, summary: &PosesSummary) -> Result<Vec<PoseRow>, StudyError> {
     let text = To::Memory.table(summary.output, text);
     let rows = csv::Reader::from_reader(text.as_bytes()).into_deserialize().enumerate();
