@@ -53,8 +53,7 @@ pub(crate) struct Settings {
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let Settings { at, figure, .. } = settings;
-    let with = settings.with.clone().unwrap_or_default();
-    with.check(&["damping", "drag"])?;
+    let with = With::known(settings.with.as_ref(), &["damping", "drag"])?;
     let damping = with.damping()?.unwrap_or(Damping::USUAL);
     let is_table = matches!(at.printing.format(), Format::Csv) && at.pose()?.is_some();
     if !is_table && figure.is_none() {

@@ -50,8 +50,7 @@ pub(crate) struct Settings {
 }
 
 pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, ProgramError> {
-    let with = with.clone().unwrap_or_default();
-    with.check(&[&["pairs", "swing", "wind"], &FACTORS[..], &WEATHER].concat())?;
+    let with = With::known(with.as_ref(), &[&["pairs", "swing", "wind"], &FACTORS[..], &WEATHER].concat())?;
     let (weather, factors) = (any_weather(&with)?, factors(&with)?);
     let load = at.load.load();
     let breaks = Breaks { pairs: with.has("pairs")?, follow: with.value("swing", None, above_zero)? };
