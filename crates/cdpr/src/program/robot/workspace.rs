@@ -192,7 +192,8 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     wanted.check(settings, &grid)?;
     let out =
         settings.out.clone().unwrap_or_else(|| arguments::named_after(settings.robot.path(), "workspace"));
-    let folder = begin_workspace(&out, settings.overwrite.if_exists())?;
+    let maps = [&MapQuantity::ALL.map(MapQuantity::name)[..], &["dominant_tolerance"]].concat();
+    let folder = begin_workspace(&out, settings.overwrite.if_exists(), &maps)?;
     let set = settings.set.set()?;
     questions::about_wrenches(&robot, set.wrenches());
     let workspace = Workspace {
