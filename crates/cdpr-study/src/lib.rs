@@ -85,7 +85,9 @@ pub use file::template::{TEMPLATE_NOTES, template, template_cost, write_template
 pub use file::weather::{WeatherQuantity, WeatherSpec, WindProfileSpec};
 pub use fs::files::{open_cable, open_robot, open_robot_in_any_unit};
 pub use fs::finite::is_not_finite;
-pub use fs::input::{check_table, is_standard_input, other_kind, read_bytes, read_table, read_text};
+pub use fs::input::{
+    check_table, from_text, is_standard_input, other_kind, read_bytes, read_table, read_text,
+};
 pub use fs::lock::Access;
 pub use fs::manifest::{ResultsOf, read_result};
 pub use fs::owned::ResultsFolder;

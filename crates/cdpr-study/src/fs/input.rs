@@ -4,8 +4,9 @@
 use crate::error::StudyError;
 use crate::kind::InputKind;
 use crate::table::{Table, TableError};
+use cdpr_robot::from_json;
 use cdpr_robot::library::ROBOTS;
-use serde::de::IgnoredAny;
+use serde::de::{DeserializeOwned, IgnoredAny};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
@@ -144,6 +145,17 @@ fn read_pipe(mut pipe: File, most: u64) -> io::Result<Vec<u8>> {
         }
     }
     Ok(bytes)
+}
+
+/// The content of a file of JSON, from its text; `path` names it in errors.
+///
+/// # Errors
+/// [`StudyError::OtherKind`], [`StudyError::Format`].
+pub fn from_text<T: DeserializeOwned>(text: &str, path: &Path, kind: InputKind) -> Result<T, StudyError> {
+    from_json(text).map_err(|source| {
+        let other = other_kind(path, text, kind);
+        other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
+    })
 }
 
 /// The error of a text that was not read as one kind because it is of another.
