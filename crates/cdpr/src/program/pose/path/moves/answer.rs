@@ -6,6 +6,7 @@ use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence};
 use crate::program::pose::at_pose::numbered;
 use cdpr_assess::{Compared, ratio_of_best};
+use cdpr_dynamics::DynamicsError;
 use cdpr_dynamics::moves::{Excited, Move, Residual, SetPoint, Shaper};
 use cdpr_robot::{Robot, counted, shown, significant};
 use serde::Serialize;
@@ -14,6 +15,7 @@ use serde::Serialize;
 #[derive(Serialize)]
 pub(super) struct Answer {
     seconds: f64,
+    /// Length of the curve along which P moves.
     way_m: f64,
     /// Time [s] and amplitude of each impulse of the shaper.
     impulses: Vec<[f64; 2]>,
@@ -214,9 +216,12 @@ impl Robots {
 impl Answer {
     /// With the motions of the shaper, if one is wanted; the set points may lie closer than those of the
     /// move, so that their tensions miss no peak.
-    pub(super) fn new(planned: &Move, modes: Option<&[Excited]>, set_points: &[SetPoint]) -> Self {
+    pub(super) fn new(
+        planned: &Move,
+        modes: Option<&[Excited]>,
+        set_points: &[SetPoint],
+    ) -> Result<Self, DynamicsError> {
         let cables = planned.robot.cables.len();
-        let ways = planned.poses.windows(2).map(|pair| (pair[1].position - pair[0].position).norm());
         let own = ["t_s", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"].map(str::to_owned);
         let of_cables = [("length", "m"), ("feed_forward", "m"), ("tension", "n"), ("exit_tension", "n")];
         let of_cables = of_cables.into_iter().flat_map(|(name, unit)| numbered(name, unit, cables));
@@ -237,9 +242,9 @@ impl Answer {
             damping_ratio: mode.damping_ratio,
             platform_share: mode.platform_share,
         };
-        Self {
+        Ok(Self {
             seconds: planned.seconds,
-            way_m: ways.sum(),
+            way_m: planned.way_length()?,
             impulses: planned.shaper.impulses.clone(),
             shaped: modes.unwrap_or_default().iter().map(shaped).collect(),
             is_unshaped: modes.is_some_and(<[Excited]>::is_empty),
@@ -251,7 +256,7 @@ impl Answer {
             residual: None,
             robots: None,
             columns: own.into_iter().chain(of_cables).collect(),
-        }
+        })
     }
 
     pub(super) fn ending(&self) -> Ending {
