@@ -116,6 +116,11 @@ impl OutOfLimits {
         self.found.is_too_much()
     }
 
+    /// By how much the limit is passed, as a share of it.
+    pub(crate) fn excess(&self) -> f64 {
+        self.found.excess()
+    }
+
     /// A cable that is slack answers the question; one that breaks or may not be strained so does not.
     pub(crate) fn ending(list: &[Self]) -> Ending {
         if list.iter().any(Self::is_too_much) { Ending::SomethingWrong } else { Ending::Well }

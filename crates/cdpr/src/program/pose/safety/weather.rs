@@ -5,6 +5,7 @@ use crate::program::arguments::towards;
 use crate::program::pose::safety::case::Greatest;
 use cdpr_assess::{AnyWeather, DIRECTIONS, InWind, Winds};
 use cdpr_robot::{Robot, significant};
+use cdpr_statics::Load;
 use cdpr_statics::limits::Limit;
 use serde::Serialize;
 
@@ -27,6 +28,9 @@ pub(super) struct InWeather {
     speed: Option<f64>,
     #[serde(skip)]
     tilted: bool,
+    /// Whether there is wind, and no force that may be that on the platform.
+    #[serde(skip)]
+    on_cables_alone: bool,
     /// Winds that were looked at.
     directions: usize,
     /// The wind that moves the platform farthest; absent where there is no rest in any.
@@ -125,7 +129,7 @@ fn wrong(found: &InWind) -> Option<(Option<Limit>, f64, String)> {
 }
 
 impl InWeather {
-    pub(super) fn new(robot: &Robot, weather: &AnyWeather, found: &Winds) -> Self {
+    pub(super) fn new(robot: &Robot, weather: &AnyWeather, found: &Winds, load: &Load) -> Self {
         let mut failed = found.failures.iter();
         let not_found = failed
             .next()
@@ -143,6 +147,8 @@ impl InWeather {
         Self {
             speed: weather.speed,
             tilted: robot.gravity.level().is_some(),
+            on_cables_alone: (weather.speed.is_some() || !weather.weather.wind.is_calm())
+                && load.wrench.force.norm() == 0.0,
             directions: found.rests.len() + found.failures.len(),
             farthest: found.farthest().map(OneWind::new),
             tightest: found.tightest().map(OneWind::new),
@@ -163,6 +169,11 @@ impl InWeather {
             (None, None) => "held",
         };
         word.to_owned()
+    }
+
+    /// Whether the platform comes below the ground in a wind.
+    pub(super) fn is_below_ground(&self) -> bool {
+        self.wrong.is_some() && !self.is_overloaded
     }
 
     /// The least safety factor in any wind.
@@ -232,7 +243,10 @@ impl InWeather {
                     .to_owned()
             });
         let below = self.below_least.as_ref().map(|what| format!("In the weather {what}."));
-        [Some(first), farthest, tightest, least_safe, frame, below].into_iter().flatten().collect()
+        let cables = self
+            .on_cables_alone
+            .then(|| "The wind is that on the cables. That on the platform is a load, --force.".to_owned());
+        [Some(first), cables, farthest, tightest, least_safe, frame, below].into_iter().flatten().collect()
     }
 
     pub(super) fn cells(&self) -> Vec<String> {
