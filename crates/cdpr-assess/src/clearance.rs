@@ -90,6 +90,9 @@ pub fn clearance_under<'a>(
     clearance_at(robot, &found.lengths, &found.equilibrium)
 }
 
+/// Distance of the surfaces of cables that touch [m].
+pub(crate) const TOUCHING: f64 = 1e-9;
+
 /// Intervals of a cable between the points of its curve.
 const INTERVALS: usize = 32;
 
@@ -129,13 +132,13 @@ impl<'a> HangingCables<'a> {
     }
 
     /// The mean of the diameters of two cables [m]; zero where they are not known.
-    pub(crate) fn thickness(&self, i: usize, j: usize) -> f64 {
+    fn thickness(&self, i: usize, j: usize) -> f64 {
         self.radius(i) + self.radius(j)
     }
 
     /// The distance of the surfaces of two cables [m]; `None` where they share a point, or where it is above
     /// `bound`.
-    pub(crate) fn pair(&self, i: usize, j: usize, bound: f64) -> Option<f64> {
+    fn pair(&self, i: usize, j: usize, bound: f64) -> Option<f64> {
         let touch = self.thickness(i, j);
         let [one, other] = [i, j].map(|k| &self.robot.cables[k]);
         let [a, b] = [i, j].map(|k| self.robot.anchor_arm(&self.pose, k));
@@ -148,6 +151,12 @@ impl<'a> HangingCables<'a> {
             return None;
         }
         Some(one.distance(other) - touch)
+    }
+
+    /// The distance of the surfaces of two cables that touch, cross or pass within their thickness [m].
+    pub(crate) fn touching(&self, i: usize, j: usize) -> Option<f64> {
+        let near = self.thickness(i, j).max(TOUCHING);
+        self.pair(i, j, near).filter(|distance| *distance <= near)
     }
 
     /// The distance of the surface of cable `i` from the hull of the other anchor points [m]; `None` of a

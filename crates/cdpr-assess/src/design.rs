@@ -19,6 +19,7 @@ mod position;
 mod problem;
 mod search;
 mod starts;
+mod unsearched;
 mod variable;
 
 use crate::error::AssessError;
@@ -41,6 +42,8 @@ pub use problem::DesignProblem;
 use search::{Found, MET, excess, objective};
 use serde::Serialize;
 use starts::Searched;
+pub use unsearched::{Crossings, OwnStiffness};
+use unsearched::{crossings, own_stiffness};
 use variable::{Domain, Variable};
 
 /// The best robot that was found, and how far that can be relied on.
@@ -119,6 +122,12 @@ pub struct BestDesign {
     /// The same of the limit of the length.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length_per_percent: Option<f64>,
+    /// Cables that touch or cross at a pose, which the search does not look at; `None` without any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crossings: Option<Crossings>,
+    /// The stiffness by the characteristic length of this robot, where the search took another one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub own_stiffness: Option<OwnStiffness>,
     /// The robot.
     #[serde(skip)]
     pub robot: Robot,
@@ -195,8 +204,12 @@ pub fn design(problem: &DesignProblem) -> Result<Design, AssessError> {
         let others = feasible().filter(|(k, _)| k / each != number / each).map(|(_, one)| one.objective);
         let next = others.min_by(f64::total_cmp).map(|objective| sign * objective);
         let same = feasible().filter(|(_, one)| is_same(problem, one, best)).count();
-        best_design(problem, best, same, next)
-            .map(|best| BestDesign { cable_types: of_types(problem, &searched, sign), ..best })
+        best_design(problem, best, same, next).map(|made| BestDesign {
+            cable_types: of_types(problem, &searched, sign),
+            crossings: crossings(problem, &made.robot),
+            own_stiffness: own_stiffness(problem, &best.values, &made.robot),
+            ..made
+        })
     });
     Ok(Design {
         output: problem.output,
@@ -294,6 +307,8 @@ fn best_design(
         active: active().filter_map(at_pose).collect(),
         cost_per_percent: of_whole(Goal::Cost),
         length_per_percent: of_whole(Goal::Length),
+        crossings: None,
+        own_stiffness: None,
         robot,
     })
 }

@@ -11,7 +11,7 @@ mod symmetry;
 
 use cdpr_robot::{Doubt, Robot, RobotCable, Vector3, counted, plausible};
 pub(crate) use equilibrium::is_below_floor;
-pub use equilibrium::{below_floor, doubtful_rest};
+pub use equilibrium::{assumed_ground, below_floor, doubtful_rest};
 use serde::Serialize;
 use std::fmt;
 

@@ -37,12 +37,12 @@ pub use boundary::Boundary;
 pub use capacity::{Block, Capacity, Figure, WrenchSet, capacity_at};
 pub use clearance::{CableDistance, Clearance, PlatformDistance, clearance_at, clearance_under};
 pub use design::{
-    ActiveDemand, BestDesign, BestOfTypes, CableSpec, ChosenCable, DESIGN_FORMAT, Design, DesignFile,
-    DesignProblem, DesignedVariable, Front, FrontPoint, Goal, LimitsSpec, ObjectiveSpec, Over, ParetoSpec,
-    VariableSpec, design, design_schema, front,
+    ActiveDemand, BestDesign, BestOfTypes, CableSpec, ChosenCable, Crossings, DESIGN_FORMAT, Design,
+    DesignFile, DesignProblem, DesignedVariable, Front, FrontPoint, Goal, LimitsSpec, ObjectiveSpec, Over,
+    OwnStiffness, ParetoSpec, VariableSpec, design, design_schema, front,
 };
 pub use error::AssessError;
-pub use inspection::{Finding, Severity, below_floor, doubtful_rest, inspect};
+pub use inspection::{Finding, Severity, assumed_ground, below_floor, doubtful_rest, inspect};
 pub use path::{Bands, Path, PathPose};
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, Outcome, PoseRegion, Protocol, ProtocolSummary, Published,

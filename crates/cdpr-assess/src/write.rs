@@ -18,28 +18,17 @@ const MESH: &str = "boundary.stl";
 
 const ROBUSTNESS: &str = "robustness.json";
 
-/// Makes a folder for a workspace, or takes one of an earlier workspace: before anything is computed.
+/// Makes a folder for a workspace and maps of these names, or takes one of an earlier workspace: before
+/// anything is computed.
 ///
 /// # Errors
 /// As [`ResultsFolder::begin`].
-pub fn begin_workspace(folder: &Path, if_exists: IfExists) -> Result<ResultsFolder, StudyError> {
+pub fn begin_workspace(
+    folder: &Path,
+    if_exists: IfExists,
+    maps: &[&str],
+) -> Result<ResultsFolder, StudyError> {
     let is_map = |name: &str| {
-        let maps = [
-            "deflection",
-            "least_stiffness",
-            "platform_frequency",
-            "dominant_tolerance",
-            "greatest_tension",
-            "greatest_tension_recomputed",
-            "payload_recomputed",
-            "payload_kept",
-            "margin_recomputed",
-            "nearest_cables",
-            "nearest_to_platform",
-            "tilt",
-            "amplitude",
-            "winch_amplitude",
-        ];
         let name = name.strip_suffix(".svg");
         name.is_some_and(|name| maps.contains(&name.split_once("_z").map_or(name, |(map, _)| map)))
     };
@@ -121,11 +110,8 @@ pub fn read_region(folder: &Path) -> Result<FoundRegion, StudyError> {
         unit: String,
     }
     let read = |name: &str| read_result(folder, name);
-    let wrong = |name: &str, field: &str, value: String, expected: &str| StudyError::Invalid {
-        path: folder.join(name),
-        field: field.to_owned(),
-        value,
-        expected: expected.to_owned(),
+    let wrong = |name: &str, field: &str, value: String, expected: &str| {
+        StudyError::invalid(&folder.join(name), field, value, expected)
     };
     let summary: Summary = serde_json::from_slice(&read(WORKSPACE)?)
         .map_err(|error| wrong(WORKSPACE, "the file", error.to_string(), "the summary of a workspace"))?;

@@ -123,6 +123,14 @@ impl Move<'_> {
         Ok(found)
     }
 
+    /// Length of the smooth curve through the poses along which P moves [m].
+    ///
+    /// # Errors
+    /// [`DynamicsError::Invalid`] for poses that are no way.
+    pub fn way_length(&self) -> Result<f64, DynamicsError> {
+        Ok(self.way()?.length())
+    }
+
     /// The set points with feed-forward.
     fn in_motion(&self, way: &Way) -> Result<Vec<SetPoint>, DynamicsError> {
         if self.feed_forward == FeedForward::Cables {
@@ -174,6 +182,10 @@ impl Move<'_> {
             let expected = format!("2 to {MOST_SET_POINTS:.0e} set points in {:?} s", self.seconds);
             return wrong("rate", format!("{:?} Hz", self.rate), expected);
         }
+        self.way()
+    }
+
+    fn way(&self) -> Result<Way, DynamicsError> {
         Way::new(self.poses, self.robot.platform_size())
     }
 

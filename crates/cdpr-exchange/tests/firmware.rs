@@ -181,6 +181,29 @@ fn maslows_corners_are_found_whatever_the_order_of_the_cables_and_the_plane() {
     }
 }
 
+/// The X axis of the firmware is the lower side of the frame, wherever that points.
+#[test]
+fn a_note_says_where_the_x_axis_of_maslow_points_unless_it_is_that_of_the_robot() {
+    let zero = |robot: &Robot| {
+        let notes = text(robot, &Pose::at(1.4, 0.0, 1.0), Target::Maslow).1;
+        notes.into_iter().find(|note| note.contains("where the diagonals cross")).unwrap()
+    };
+    assert!(!zero(&maslow()).contains("X axis"), "{}", zero(&maslow()));
+    let mut turned = maslow();
+    // The lowest two corners, the right one 80 mm lower.
+    let lowest = turned.cables.iter().map(|cable| cable.exit_point.z).fold(f64::INFINITY, f64::min);
+    let mut lower: Vec<_> =
+        turned.cables.iter_mut().filter(|cable| cable.exit_point.z < lowest + 0.5).collect();
+    lower.sort_by(|a, b| a.exit_point.x.total_cmp(&b.exit_point.x));
+    lower[1].exit_point.z -= 0.08;
+    let along = lower[1].exit_point - lower[0].exit_point;
+    let said = zero(&turned);
+    let (_, axis) = said.split_once("its X axis points along (").unwrap();
+    let axis: Vec<f64> = axis.split([',', ')']).filter_map(|word| word.trim().parse().ok()).collect();
+    let expected = along / along.norm();
+    assert!((Vector3::from_row_slice(&axis[..3]) - expected).norm() < 2e-6, "{said} {expected}");
+}
+
 #[test]
 fn names_of_robots_cannot_become_commands() {
     for (robot, pose, target) in [

@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn the_scripts_do_not_end_their_elements() {
-        for script in [page::WORKER, UNPACK, BOOT] {
+        for script in [page::WORKER, UNPACK, BOOT, crate::page::SCRIPT] {
             assert!(!script.to_lowercase().contains("</script") && !script.contains("<!--"));
         }
     }

@@ -154,7 +154,7 @@ fn workspaces_of_which_nothing_is_held_or_without_load() {
         ("nothing held", far, Load::payload(50.0)),
     ] {
         let folder = tempfile::TempDir::new().unwrap();
-        let owned = begin_workspace(folder.path(), IfExists::Refuse).unwrap();
+        let owned = begin_workspace(folder.path(), IfExists::Refuse, &[]).unwrap();
         let grid = Grid::new([x, y, z]).unwrap();
         let tolerances = Some(&tolerances).filter(|_| load != Load::none());
         let workspace = Workspace {

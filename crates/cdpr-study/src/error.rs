@@ -7,7 +7,7 @@ use cdpr_cable::RecordError;
 use cdpr_robot::{JsonError, RobotError, place_of, shortened};
 use cdpr_sensitivity::SensitivityError;
 use cdpr_statics::StaticsError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why a study could not be read, run or written. A failed observation is not an error but a result.
 #[derive(Debug, thiserror::Error)]
@@ -351,6 +351,16 @@ impl StudyError {
         match position {
             Some((line, column)) => Self::At { line, column, source: Box::new(self) },
             None => self,
+        }
+    }
+
+    /// An invalid value of a field of a file, and what is expected.
+    pub fn invalid(path: &Path, field: &str, value: impl ToString, expected: &str) -> Self {
+        Self::Invalid {
+            path: path.to_owned(),
+            field: field.to_owned(),
+            value: value.to_string(),
+            expected: expected.to_owned(),
         }
     }
 

@@ -11,3 +11,8 @@ pub(crate) mod sensitivity_spec;
 pub(crate) mod study_file;
 pub(crate) mod template;
 pub(crate) mod weather;
+
+/// Whether a field has the value that it has without being written.
+pub(crate) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}

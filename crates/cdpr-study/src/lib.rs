@@ -85,7 +85,9 @@ pub use file::template::{TEMPLATE_NOTES, template, template_cost, write_template
 pub use file::weather::{WeatherQuantity, WeatherSpec, WindProfileSpec};
 pub use fs::files::{open_cable, open_robot, open_robot_in_any_unit};
 pub use fs::finite::is_not_finite;
-pub use fs::input::{check_table, is_standard_input, other_kind, read_bytes, read_table, read_text};
+pub use fs::input::{
+    check_table, from_text, is_standard_input, other_kind, read_bytes, read_table, read_text,
+};
 pub use fs::lock::Access;
 pub use fs::manifest::{ResultsOf, read_result};
 pub use fs::owned::ResultsFolder;
@@ -117,9 +119,7 @@ pub use observe::status::{
 };
 pub use results::read::Results;
 pub use results::table::{ObservationTable, Rows, TableFormat};
-pub use results::write::{
-    Timings, write_figure, write_poses, write_sensitivity, write_summary, write_surface, write_timings,
-};
+pub use results::write::{Timings, write_figure, write_summary, write_surface, write_timings};
 pub use run::{Draw, Drawable, Figure, Run, Watcher, run};
 pub use store::block::BLOCK;
 pub use store::blocks::Blocks;

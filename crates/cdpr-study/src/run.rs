@@ -19,7 +19,7 @@ use crate::observe::observation::{Session, Tally, observe_into};
 use crate::results::read::Results;
 use crate::results::table::{ObservationTable, TableFormat};
 use crate::results::write::{
-    Timings, write_figure, write_poses, write_sensitivity, write_summary, write_surface, write_timings,
+    Timings, write_figure, write_named, write_summary, write_surface, write_timings,
 };
 use crate::store::blocks::Blocks;
 use indexmap::IndexMap;
@@ -175,7 +175,10 @@ impl<'a> Running<'a> {
         if let Some(measures) = &summary.sensitivity {
             let seconds = measures.methods.iter().map(|(name, method)| (name.clone(), method.seconds));
             self.timings.sensitivity.insert(name.to_owned(), seconds.collect());
-            write_sensitivity(self.out, name, summary.output, measures)?;
+            // One row an input: shares and indices have no unit, and a method that has failed leaves its
+            // cells empty.
+            let table = format!("{name}_sensitivity.csv");
+            write_named(self.out, &table, summary.output, &measures.inputs)?;
         }
         self.figures((self.draw)(self.study, Drawable::Sampling { name, summary: &summary }))?;
         self.finish(name, StudySummary::Sampling(Box::new(summary)), clock);
@@ -194,7 +197,7 @@ impl<'a> Running<'a> {
         }
         let observe = |sampling: &Sampling| self.observed(sampling, &session, format);
         let PosesResult { summary, rows } = observe_poses(self.study, name, &session, observe)?;
-        write_poses(self.out, name, summary.output, &rows)?;
+        write_named(self.out, &format!("{name}.csv"), summary.output, &rows)?;
         let maps = (self.draw)(self.study, Drawable::Poses { name, summary: &summary, rows: &rows });
         if maps.is_empty() {
             (self.watcher.note)(&format!("no map of {name}: its poses are on no plane or box"));

@@ -99,3 +99,122 @@ fn a_front_is_a_table_in_text_and_csv_and_a_robot_file_for_each_point() {
         assert_eq!(robot["cables"][0]["exit_point"][0], point["variables"][0]);
     }
 }
+
+/// A planar robot of 14 kg on four cables, whose lower exits are at the floor.
+fn wall() -> Value {
+    let cable =
+        |[x, z]: [f64; 2], [a, c]: [f64; 2]| json!({"exit_point": [x, 0, z], "anchor_point": [a, 0, c]});
+    json!({
+        "format": "cdpr-robot/1", "name": "Wall", "gravity": 9.81, "plane": "xz",
+        "platform": {"mass": 14, "center_of_mass": [0.03, 0, -0.02], "inertia": 0.4},
+        "cable": {"diameter": 0.002, "section": 1.6e-6, "linear_density": 0.016, "youngs_modulus": 9e10},
+        "tension_limits": {"min": 15, "max": 700}, "tension_reference": 150,
+        "cables": [
+            cable([0.0, 0.1], [-0.2, -0.12]), cable([4.0, 0.0], [0.2, -0.12]),
+            cable([4.1, 3.1], [0.2, 0.12]), cable([-0.1, 3.0], [-0.2, 0.12]),
+        ],
+    })
+}
+
+/// Anchor points that move with the symmetry of the platform.
+fn anchors(output: &str) -> Value {
+    json!({
+        "format": "cdpr-design/1", "payload": 3, "wrench": [10, 0, 0, 0, 2, 0], "starts": 4,
+        "variables": [{
+            "parameters": ["a1.z", "a2.z", "a3.z", "a4.z"], "signs": [1, 1, -1, -1], "bounds": [-0.3, 0.2]
+        }],
+        "poses": {"list": [{"position": [1.2, 0, 1]}, {"position": [2.6, 0, 2]}]},
+        "objective": {"output": output},
+    })
+}
+
+/// A robot and a design of it in a folder, and what the program says.
+fn designed(robot: &Value, design: &Value, more: &[&str]) -> (std::process::Output, TempDir) {
+    let folder = TempDir::new().unwrap();
+    std::fs::write(folder.path().join("robot.json"), robot.to_string()).unwrap();
+    std::fs::write(folder.path().join("design.json"), design.to_string()).unwrap();
+    let call = [&["design", "robot.json", "design.json", "--out", "best.json"], more].concat();
+    (cdpr_in(folder.path(), &call), folder)
+}
+
+#[test]
+fn a_design_whose_cables_cross_says_which() {
+    let (said, folder) = designed(&wall(), &anchors("deflection"), &[]);
+    let said = unwrapped(said.stdout).replace('\n', " ");
+    assert!(said.contains("touch or cross at pose 1: the search does not look at clearances."), "{said}");
+    let checked = cdpr_in(folder.path(), &["robot", "check", "best.json"]);
+    assert!(unwrapped(checked.stdout).contains("0.0 mm from cable"), "{said}");
+    let (found, _folder) = designed(&wall(), &anchors("deflection"), &["--format", "json"]);
+    let found: Value = serde_json::from_slice(&found.stdout).unwrap();
+    assert_eq!(found["best"]["crossings"]["pose"], 0, "{found}");
+    let mut apart = anchors("deflection");
+    apart["variables"][0]["bounds"] = json!([-0.3, -0.1]);
+    let (said, _folder) = designed(&wall(), &apart, &[]);
+    assert!(!unwrapped(said.stdout).contains("cross"));
+}
+
+#[test]
+fn a_stiffness_of_a_design_is_also_said_by_the_length_of_the_new_robot() {
+    let mut design = anchors("stiffness");
+    design["variables"][0]["bounds"] = json!([-0.3, -0.1]);
+    let (found, folder) = designed(&wall(), &design, &["--format", "json"]);
+    let found: Value = serde_json::from_slice(&found.stdout).unwrap();
+    let own = &found["best"]["own_stiffness"];
+    std::fs::write(folder.path().join("poses.csv"), "x,y,z\n1.2,0,1\n2.6,0,2\n").unwrap();
+    let place = ["stiffness", "best.json", "--poses", "poses.csv", "--payload", "3", "--force", "10,0,0"];
+    let rows =
+        answered(cdpr_in(folder.path(), &[&place[..], &["--moment", "0,2,0", "--format", "json"]].concat()));
+    let rows = rows.lines().map(|row| serde_json::from_str::<Value>(row).unwrap());
+    let least = rows.map(|row| row["least_stiffness"].as_f64().unwrap()).fold(f64::INFINITY, f64::min);
+    assert!((own["stiffness"].as_f64().unwrap() / least - 1.0).abs() < 1e-6, "{own} {least}");
+    assert!((found["best"]["objective"].as_f64().unwrap() / least - 1.0).abs() > 1e-3, "{found}");
+    let (said, _folder) = designed(&wall(), &design, &[]);
+    let said = unwrapped(said.stdout).replace('\n', " ");
+    assert!(
+        said.contains("the characteristic length of the robot as it is. That of the new robot is"),
+        "{said}"
+    );
+}
+
+#[test]
+fn bounds_in_millimetres_are_questioned_and_poses_without_a_name_are_explained() {
+    let mut design = anchors("length");
+    design["variables"] = json!([{"parameters": ["b4.x"], "bounds": [-120, -80]}]);
+    let (asked, _folder) = designed(&wall(), &design, &[]);
+    let said = unwrapped(asked.stderr).replace('\n', " ");
+    assert!(said.contains("question: variables[0].bounds is -120"), "{said}");
+    assert!(said.contains("b4.x is -0.1") && said.contains("if it is in mm"), "{said}");
+    assert_eq!(asked.status.code(), Some(3), "{said}");
+    design["variables"][0]["bounds"] = json!([-0.12, -0.08]);
+    let (fine, _folder) = designed(&wall(), &design, &[]);
+    assert!(!unwrapped(fine.stderr).contains("question"));
+    design["poses"] = json!([[1.2, 0, 1]]);
+    let (refused, _folder) = designed(&wall(), &design, &[]);
+    let said = unwrapped(refused.stderr);
+    assert!(said.contains("poses: a list: expected {\"list\": [{\"position\": [x, y, z]}, ..]}"), "{said}");
+}
+
+#[test]
+fn a_mean_of_greatest_tensions_that_has_a_kink_says_what_kinks() {
+    let robot = json!({
+        "format": "cdpr-robot/1", "name": "Camera", "gravity": 9.81,
+        "platform": {"mass": 6, "center_of_mass": [0, 0, 0], "point": true},
+        "cable": {"section": 2.8e-6, "linear_density": 0.0, "youngs_modulus": 4.5e10},
+        "tension_limits": {"min": 1, "max": 900},
+        "cables": [
+            {"exit_point": [-3, 0, 4], "anchor_point": [0, 0, 0]},
+            {"exit_point": [3, 0, 4], "anchor_point": [0, 0, 0]},
+            {"exit_point": [0, 5, 4], "anchor_point": [0, 0, 0]},
+        ],
+    });
+    // Both cables are pulled most where the exits are as far from the platform.
+    let design = json!({
+        "format": "cdpr-design/1", "payload": 4, "starts": 2,
+        "variables": [{"parameters": ["b1.x", "b2.x"], "bounds": [-4, -2.5]}],
+        "poses": {"list": [{"position": [0, 1, 2]}]},
+        "objective": {"output": "tension", "over": "mean"},
+    });
+    let (said, _folder) = designed(&robot, &design, &[]);
+    let said = unwrapped(said.stdout).replace('\n', " ");
+    assert!(said.contains("where another cable becomes the one that is pulled most"), "{said}");
+}

@@ -48,6 +48,26 @@ fn a_move_is_planned_for_a_controller_and_simulated_from_its_table() {
 }
 
 #[test]
+fn the_length_of_a_move_is_that_of_the_curve_on_which_the_platform_moves() {
+    let folder = TempDir::new().unwrap();
+    let robot = point_mass(&folder, &[[3.0, 2.0, 4.0], [-3.0, 2.0, 4.0], [0.0, -2.0, 4.0]], false);
+    let poses = folder.path().join("poses.csv");
+    std::fs::write(&poses, "x,y,z\n-0.5,0,1\n0.5,0,1\n0.5,0.8,1\n").unwrap();
+    let out = folder.path().join("move.csv");
+    let call = ["path", &robot, "--poses", poses.to_str().unwrap(), "--with", "seconds=4,rate=100"];
+    let said = text(cdpr(&[&call[..], &["--out", out.to_str().unwrap()]].concat()).stdout);
+    let table = std::fs::read_to_string(&out).unwrap();
+    let place = |row: &str| -> Vec<f64> { row.split(',').map(|cell| cell.parse().unwrap()).collect() };
+    let rows: Vec<Vec<f64>> = table.lines().skip(1).map(place).collect();
+    let way = |pair: &[Vec<f64>]| (1..4).map(|k| (pair[1][k] - pair[0][k]).powi(2)).sum::<f64>().sqrt();
+    let moved: f64 = rows.windows(2).map(way).sum();
+    let found = answer(&call)["way_m"].as_f64().unwrap();
+    // The straight distances are 1.8 m together.
+    assert!(found > 1.82 && (found / moved - 1.0).abs() < 1e-3, "{found} {moved}");
+    assert!(said.contains(&format!("Point mass: {found:.3} m in 4 s")), "{said}");
+}
+
+#[test]
 fn what_a_move_cannot_be_is_refused_with_what_would_be_right() {
     let robot = data_path("robots/cogiro.json");
     let poses = data_path("poses/one-metre.csv");

@@ -202,3 +202,77 @@ fn the_table_of_a_pose_has_a_row_for_each_case_with_all_that_is_known() {
     assert!((0.0..360.0).contains(&number(&windy, last, "wind_towards_deg")));
     assert!(number(&windy, last, "utilization") > number(&windy, 1, "utilization"));
 }
+
+/// A camera of 6 kg on three cables that break at 80 N.
+fn camera(folder: &TempDir) -> String {
+    let robot = point_mass(folder, &[[-6.0, -4.0, 7.0], [6.0, -4.5, 6.6], [0.5, 5.0, 7.2]], false);
+    let mut file: serde_json::Value = serde_json::from_slice(&std::fs::read(&robot).unwrap()).unwrap();
+    file["platform"]["mass"] = json!(6);
+    file["cable"] = json!({
+        "diameter": 0.0025, "section": 2.8e-6, "linear_density": 0.0045, "youngs_modulus": 4.5e10,
+        "breaking_force": 80
+    });
+    file["tension_limits"] = json!({"min": 3, "max": 900});
+    std::fs::write(&robot, file.to_string()).unwrap();
+    robot
+}
+
+#[test]
+fn a_row_of_a_break_names_the_cable_whose_limit_is_passed_most() {
+    let folder = TempDir::new().unwrap();
+    let robot = camera(&folder);
+    let call = ["safety", &robot, "--pose", "1,0.5,3", "--payload", "2", "--with", "swing=1.5"];
+    let (found, printed) = (answer(&call), text(cdpr(&call).stdout));
+    let swing = &found["broken"][2]["swing"];
+    let beyond = swing["out_of_limits"].as_array().unwrap();
+    assert!(beyond.len() > 1, "{swing}");
+    let most = swing["greatest_tension"]["cable"].as_u64().unwrap();
+    assert_ne!(beyond[0]["cable"], most, "{swing}");
+    // The words of a cell are over several lines.
+    let row = printed.lines().skip_while(|line| !line.starts_with("│ 3 "));
+    let row = row.take_while(|line| !line.starts_with(['├', '└']));
+    let said: Vec<&str> = row.filter_map(|line| line.split(['│', '┆']).rev().nth(1)).collect();
+    let said = said.join(" ").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.starts_with(&format!("cable {most} breaks, too, on the way")), "{said}\n{printed}");
+}
+
+#[test]
+fn a_ground_that_is_assumed_is_named_where_the_platform_comes_below_it() {
+    let folder = TempDir::new().unwrap();
+    let robot = point_mass(&folder, &FOUR, false);
+    let low = ["safety", &robot, "--pose", "0,0,0.3", "--with", "pairs"];
+    let (found, said) = (answer(&low), unwrapped(cdpr(&low).stdout).replace('\n', " "));
+    assert!(found["assumed_ground"].as_f64().unwrap() < 0.0, "{found}");
+    assert!(said.contains("The robot file has no `ground_z`: the ground is assumed at z = -"), "{said}");
+    let high = ["safety", &robot, "--pose", "0,0,3"];
+    assert_eq!(answer(&high)["assumed_ground"], serde_json::Value::Null);
+    let text = std::fs::read_to_string(&robot).unwrap().replacen('{', "{\"ground_z\":0,", 1);
+    std::fs::write(&robot, text).unwrap();
+    let said = unwrapped(cdpr(&low).stdout).replace('\n', " ");
+    assert!(said.contains("below the ground") && !said.contains("is assumed"), "{said}");
+}
+
+#[test]
+fn wind_without_a_force_is_said_to_be_that_on_the_cables() {
+    let folder = TempDir::new().unwrap();
+    let robot = point_mass(&folder, &FOUR, false);
+    let says = |more: &[&str]| {
+        let call = [&["safety", &robot, "--pose", "0,0,1", "--with"], more].concat();
+        unwrapped(cdpr(&call).stdout).replace('\n', " ").contains("The wind is that on the cables.")
+    };
+    assert!(says(&["wind=12"]) && says(&["wind=12:0:0"]));
+    assert!(!says(&["ice=0.002"]) && !says(&["wind=12", "--force", "5,0,0"]));
+}
+
+#[test]
+fn a_factor_in_the_table_is_the_least_of_rest_and_motion() {
+    let folder = TempDir::new().unwrap();
+    let robot = camera(&folder);
+    let call = ["safety", &robot, "--pose", "1,0.5,3", "--with", "swing=0.001"];
+    let (found, printed) = (answer(&call), text(cdpr(&call).stdout));
+    let case = &found["broken"][0];
+    let [rest, swing] = [case, &case["swing"]].map(|of| of["safety_factor"].as_f64().unwrap());
+    assert!(rest < swing, "{case}");
+    let row = printed.lines().find(|line| line.starts_with("│ 1 ")).unwrap();
+    assert!(row.contains(&format!(" {} ", cdpr_robot::significant(rest, 3))), "{row} {rest}");
+}

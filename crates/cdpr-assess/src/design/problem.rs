@@ -4,9 +4,9 @@ use crate::design::cables::{CableType, ChosenCable, type_at, types};
 use crate::design::file::{DESIGN_FORMAT, DesignFile, LimitsSpec, Over};
 use crate::design::goal::Goal;
 use crate::design::variable::{Domain, Variable, variables, with, wrong};
-use cdpr_robot::{Coordinate, Parameter, Pose, Robot, RobotError, Vector6, Wrench, from_json, significant};
+use cdpr_robot::{Coordinate, Parameter, Pose, Robot, RobotError, Vector6, Wrench, significant};
 use cdpr_statics::Load;
-use cdpr_study::{ErrorModel, InField, InputKind, StudyError, error_model, other_kind, read_text};
+use cdpr_study::{ErrorModel, InField, InputKind, StudyError, error_model, from_text, read_text};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -65,10 +65,7 @@ impl DesignProblem {
     /// # Errors
     /// As [`DesignProblem::open`].
     pub fn from_json(text: &str, path: &Path, robot: Robot) -> Result<Self, StudyError> {
-        let file: DesignFile = from_json(text).map_err(|source| {
-            let other = other_kind(path, text, InputKind::Design);
-            other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
-        })?;
+        let file: DesignFile = from_text(text, path, InputKind::Design)?;
         Self::new(&file, robot).map_err(|(field, value, expected)| {
             StudyError::Invalid { path: path.to_owned(), field, value, expected }.placed(text)
         })
@@ -278,6 +275,15 @@ impl DesignProblem {
             Domain::Choices(_) => None,
         };
         self.variables.iter().enumerate().filter_map(of)
+    }
+
+    /// Values with those of the variables with bounds at a place in the box, whose sides are 1.
+    pub(crate) fn placed(&self, mut values: Vec<f64>, place: &[f64]) -> Vec<f64> {
+        for ((j, [low, high]), u) in self.bounded().zip(place) {
+            // Exact at both ends.
+            values[j] = low * (1.0 - u) + high * u;
+        }
+        values
     }
 
     /// Number of combinations of the choices; 1 without any, `None` where it is beyond all bounds.

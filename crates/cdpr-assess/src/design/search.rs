@@ -143,15 +143,6 @@ impl Search<'_> {
         self.descend(here)
     }
 
-    fn values_at(&self, u: &[f64]) -> Vec<f64> {
-        let mut values = self.values.clone();
-        for ((j, [low, high]), u) in self.bounded.iter().zip(u) {
-            // Exact at both ends.
-            values[*j] = low * (1.0 - u) + high * u;
-        }
-        values
-    }
-
     /// The functions at a point; `None` where the robot is not held or has no derivatives.
     fn at(&mut self, u: Vec<f64>) -> Option<Point> {
         self.with_step(u, STEP)
@@ -161,7 +152,7 @@ impl Search<'_> {
     fn with_step(&mut self, u: Vec<f64>, step: f64) -> Option<Point> {
         self.evaluations += 1;
         let Self { problem, bounded, scale, .. } = &*self;
-        let found = problem.evaluate(&self.values_at(&u), Some(step)).ok()?;
+        let found = problem.evaluate(&problem.placed(self.values.clone(), &u), Some(step)).ok()?;
         let in_box = |quantity: &Quantity, factor: f64| Quantity {
             value: factor * quantity.value,
             slopes: bounded
@@ -218,7 +209,7 @@ impl Search<'_> {
             if self.problem.needs(Goal::Position) { Some(self.gradient_error(&here, &step)) } else { None };
         let active = step.mu.iter().enumerate().filter(|(_, mu)| **mu > 1e-6);
         Some(Found {
-            values: self.values_at(&here.u),
+            values: self.problem.placed(self.values.clone(), &here.u),
             objective: self.scale * here.merit(0.0),
             excess: here.violation(),
             residual,

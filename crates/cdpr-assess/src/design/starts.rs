@@ -43,9 +43,8 @@ impl Searched {
             let (values, start) = (problem.configuration(number / each), &starts[number % each]);
             let (found, evaluations) = Search::run(problem, values.clone(), start.clone());
             // A robot that is held without derivatives counts, but no search goes on from it.
-            let alone = || {
-                Some(Found { residual: f64::INFINITY, ..single(problem, placed(problem, values, start))? })
-            };
+            let alone =
+                || Some(Found { residual: f64::INFINITY, ..single(problem, problem.placed(values, start))? });
             (found.or_else(alone), evaluations)
         };
         let (found, evaluations): (Vec<_>, Vec<usize>) =
@@ -137,12 +136,4 @@ fn starts(problem: &DesignProblem, further: &[Vec<f64>]) -> Result<Option<Vec<Ve
     let others: Vec<Vec<f64>> = (1..problem.starts).map(point).collect::<Result<_, _>>()?;
     let further = further.iter().map(|values| in_box(values));
     Ok(Some([nominal.clone()].into_iter().chain(others).chain(further).collect()))
-}
-
-/// Values with those of the variables with bounds at a start in the box.
-fn placed(problem: &DesignProblem, mut values: Vec<f64>, start: &[f64]) -> Vec<f64> {
-    for ((j, [low, high]), u) in problem.bounded().zip(start) {
-        values[j] = low * (1.0 - u) + high * u;
-    }
-    values
 }

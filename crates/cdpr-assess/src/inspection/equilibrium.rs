@@ -65,6 +65,13 @@ pub(crate) fn is_below_floor(robot: &Robot, start: &Pose, pose: &Pose) -> bool {
     below_floor(robot, Some(start), pose).is_some()
 }
 
+/// The height that is taken for the ground of a robot whose file has none, for a platform that was at `start`
+/// [m]; `None` where the file has one, or where nothing is assumed.
+pub fn assumed_ground(robot: &Robot, start: &Pose) -> Option<f64> {
+    let floor = || floor(robot, Some(start)).map(|(height, _)| height);
+    robot.ground_z.is_none().then(floor).flatten()
+}
+
 /// The height below which no platform is expected [m], and what is there. Where the file has no ground it is
 /// a guess, which a platform that starts below it refutes, and a base frame that is tilted.
 fn floor(robot: &Robot, start: Option<&Pose>) -> Option<(f64, String)> {

@@ -2,7 +2,7 @@
 //! equilibria.
 
 use super::{Findings, Severity};
-use crate::clearance::HangingCables;
+use crate::clearance::{HangingCables, TOUCHING};
 use cdpr_robot::{Pose, Robot, Vector3, frame};
 use cdpr_statics::{DirectProblem, DirectStart, InverseSolution, Load, Unstable, inverse};
 
@@ -10,8 +10,6 @@ use cdpr_statics::{DirectProblem, DirectStart, InverseSolution, Load, Unstable, 
 const CABLE_WEIGHT: f64 = 0.5;
 /// Ratio of the extreme singular values of the wrench matrix beyond which it hardly resists some wrench.
 const CONDITION: f64 = 100.0;
-/// Distance of the surfaces of cables that touch [m].
-pub(super) const TOUCHING: f64 = 1e-9;
 
 impl Findings<'_> {
     /// Findings at a pose with feasible tensions. Where values are in doubt, they are the reason for an
@@ -83,12 +81,7 @@ impl Findings<'_> {
     /// Which of the cables before this one pass it within their thickness: one finding, with the nearest of
     /// them.
     fn crossings(&mut self, hanging: &HangingCables, j: usize, at: &str) {
-        let distance = |i: usize| {
-            let near = hanging.thickness(i, j).max(TOUCHING);
-            let distance = hanging.pair(i, j, near)?;
-            (distance <= near).then_some((distance, i))
-        };
-        let touching: Vec<_> = (0..j).filter_map(distance).collect();
+        let touching: Vec<_> = (0..j).filter_map(|i| Some((hanging.touching(i, j)?, i))).collect();
         let Some((distance, i)) = touching.iter().copied().min_by(|one, other| one.0.total_cmp(&other.0))
         else {
             return;

@@ -1,7 +1,7 @@
 //! Anchor points of two cables that were given for one another: the robot holds a pose, without cables that
 //! touch, as soon as they are exchanged, or its layout becomes symmetric.
 
-use super::pose::{TOUCHING, held};
+use super::pose::held;
 use super::{Findings, Severity, symmetry};
 use crate::clearance::HangingCables;
 use cdpr_robot::Robot;
@@ -70,11 +70,7 @@ fn exchanged(robot: &Robot, i: usize, j: usize) -> Robot {
 fn effort(robot: &Robot) -> Option<f64> {
     let (_, solution) = held(robot)?;
     let hanging = HangingCables::new(robot, &solution.lengths, &solution.equilibrium).ok()?;
-    let touch = |i, j| {
-        let near = hanging.thickness(i, j).max(TOUCHING);
-        hanging.pair(i, j, near).is_some_and(|distance| distance <= near)
-    };
-    let free = (0..robot.cables.len()).all(|j| (0..j).all(|i| !touch(i, j)));
+    let free = (0..robot.cables.len()).all(|j| (0..j).all(|i| hanging.touching(i, j).is_none()));
     free.then(|| solution.tensions.iter().sum())
 }
 

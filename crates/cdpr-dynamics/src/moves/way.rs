@@ -64,6 +64,24 @@ impl Way {
         Ok(Self { first: *first, knots, points, bends })
     }
 
+    /// Length of the curve along which P moves [m], by the rule of Gauss with three points.
+    pub(crate) fn length(&self) -> f64 {
+        /// Parts of the way between two poses.
+        const PARTS: usize = 64;
+        let node = 0.6_f64.sqrt();
+        let speed = |share: f64| self.at([share, 1.0, 0.0]).velocity.fixed_rows::<3>(0).norm();
+        let between = |pair: &[f64]| {
+            let half = 0.5 * (pair[1] - pair[0]) / PARTS as f64;
+            let part = |k: usize| {
+                let middle = pair[0] + (2 * k + 1) as f64 * half;
+                let ends = speed(middle - node * half) + speed(middle + node * half);
+                half * (5.0 * ends + 8.0 * speed(middle)) / 9.0
+            };
+            (0..PARTS).map(part).sum::<f64>()
+        };
+        self.knots.windows(2).map(between).sum()
+    }
+
     /// The motion at a share of the way, with its rate [1/s] and the rate of that [1/s²].
     pub(crate) fn at(&self, [share, rate, growth]: [f64; 3]) -> Motion {
         let last = self.knots.len() - 1;
@@ -160,11 +178,25 @@ mod tests {
     }
 
     #[test]
+    fn the_length_of_a_way_is_that_of_its_curve() {
+        let poses = [[0.5, 0.0, 3.0], [1.5, 0.5, 3.0], [0.5, 1.0, 3.2], [-0.5, 0.0, 3.0]];
+        let way = Way::new(&poses.map(|[x, y, z]| Pose::at(x, y, z)), 0.5).unwrap();
+        let count = 20_000;
+        let places: Vec<_> =
+            (0..=count).map(|k| way.at([f64::from(k) / f64::from(count), 0.0, 0.0]).pose.position).collect();
+        let chords: f64 = places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+        assert!((way.length() - chords).abs() < 1e-6 * chords, "{} {chords}", way.length());
+        // The straight distances between the poses are less.
+        assert!(way.length() > 3.8);
+    }
+
+    #[test]
     fn a_way_between_two_poses_is_straight_and_one_without_length_is_refused() {
         let way = Way::new(&[Pose::at(0.0, 0.0, 1.0), Pose::at(2.0, 0.0, 1.0)], 1.0).unwrap();
         let motion = way.at([0.25, 3.0, 5.0]);
         assert!((motion.pose.position - Vector3::new(0.5, 0.0, 1.0)).norm() < 1e-15);
         assert!((motion.velocity[0] - 6.0).abs() < 1e-12 && (motion.acceleration[0] - 10.0).abs() < 1e-12);
+        assert!((way.length() - 2.0).abs() < 1e-12);
         let refused = |poses: &[Pose]| Way::new(poses, 1.0).unwrap_err().to_string();
         assert!(refused(&[Pose::at(0.0, 0.0, 1.0)]).contains("two poses or more"));
         assert!(refused(&[Pose::at(0.0, 0.0, 1.0); 2]).contains("differ"));

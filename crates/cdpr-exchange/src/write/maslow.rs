@@ -16,6 +16,9 @@ use std::fmt::Write;
 /// Lengths of the sides of a frame that the firmware accepts [m].
 const SIDES: std::ops::RangeInclusive<f64> = 0.5..=5.0;
 
+/// A lower side that rises by a smaller share of its length is along the axis of the robot file.
+const LEVEL: f64 = 1e-9;
+
 /// The corners in the order of the firmware: top left, top right, bottom left, bottom right.
 const NAMES: [&str; 4] = ["tl", "tr", "bl", "br"];
 
@@ -63,13 +66,15 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     }
     let start = origin + along * center.x + Vector2::new(-along.y, along.x) * center.y;
     let normal = axes[2].dot(&pose.position);
-    let [x, y, z]: [f64; 3] = (axes[0] * start.x + axes[1] * start.y + axes[2] * normal).into();
-    notes.push(format!(
-        "X = Y = Z = 0 of the firmware is ({}, {}, {}) m, where the diagonals cross",
-        fixed(x),
-        fixed(y),
-        fixed(z)
-    ));
+    let place = |[x, y, z]: [f64; 3]| format!("({}, {}, {})", fixed(x), fixed(y), fixed(z));
+    let zero = place((axes[0] * start.x + axes[1] * start.y + axes[2] * normal).into());
+    let turned = if along.y.abs() > LEVEL {
+        let x_axis = place((axes[0] * along.x + axes[1] * along.y).into());
+        format!("; its X axis points along {x_axis}, from the bottom left to the bottom right corner")
+    } else {
+        String::new()
+    };
+    notes.push(format!("X = Y = Z = 0 of the firmware is {zero} m, where the diagonals cross{turned}"));
     notes.push(
         "the robot file has no arms between belts and sled: armLength and beltEndExtension are 0".to_owned(),
     );

@@ -5,7 +5,7 @@ mod drawings;
 use crate::page::analysis::drawings::{cobweb, scatter};
 use crate::page::elements::{Document, Section, cell, numeric, table};
 use crate::text;
-use cdpr_robot::shown;
+use cdpr_robot::{counted, shown};
 use cdpr_sensitivity::{LeadingInputs, LevelMean, WassersteinBures};
 use cdpr_study::{Analysis, Dependence, GivenTable, InputAnalysis, TableAnalysis, VectorAnalysis};
 use maud::{Markup, html};
@@ -104,11 +104,6 @@ fn summary(name: &str, analysis: &Analysis) -> Markup {
         (table(&format!("Values of {name}"), &head, &[row]))
         @if let Some(fit) = analysis.best_fit { p { "Law of the values: " (fit) "." } }
     }
-}
-
-/// `1 row`, `2 rows`.
-fn counted(count: usize, word: &str) -> String {
-    format!("{count} {word}{}", if count == 1 { "" } else { "s" })
 }
 
 /// The verdict, what was found of its conditions, and the levels of words.

@@ -1,10 +1,11 @@
 //! Failed observations, notes and timings of the run, and how to repeat it.
 
 use crate::page::elements::{Section, cell, numeric, table};
+use crate::page::glance::samplings;
 use crate::text;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use cdpr_study::{Results, StudySummary, Timings};
+use cdpr_study::{Results, Timings};
 use maud::{Markup, html};
 
 pub(crate) fn observations(results: &Results) -> Section {
@@ -24,15 +25,10 @@ pub(crate) fn observations(results: &Results) -> Section {
             ]
         })
         .collect();
-    let notes: Vec<(&str, &str)> = studies
-        .iter()
-        .filter_map(|(name, study)| match study {
-            StudySummary::Sampling(sampling) => Some((name, sampling)),
-            StudySummary::Surface(_) | StudySummary::Poses(_) => None,
-        })
+    let notes: Vec<(&str, &str)> = samplings(&results.summary)
         .flat_map(|(name, sampling)| {
             let measures = sampling.sensitivity.iter().flat_map(|found| &found.notes);
-            sampling.notes.iter().chain(measures).map(|note| (name.as_str(), note.as_str()))
+            sampling.notes.iter().chain(measures).map(move |note| (name, note.as_str()))
         })
         .collect();
     let body = html! {

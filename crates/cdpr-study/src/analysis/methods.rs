@@ -10,9 +10,9 @@ use crate::file::output::VectorOutput;
 use crate::model::designs::{Design, Grouped, key};
 use crate::model::observed::Measured;
 use cdpr_sensitivity::{
-    Bootstrap, Correlated, Expansion, Input, Regression, SensitivityError, SobolDesign, active_subspace,
-    brackets, dgsm, expansion, gradient_expansion, morris_effects, rank_regression, regression,
-    shapley_effects, sobol_indices, student_effects, vector_sobol_indices, wasserstein_bures,
+    Bootstrap, Correlated, Estimate, Expansion, Input, Regression, SensitivityError, SobolDesign,
+    active_subspace, brackets, dgsm, expansion, gradient_expansion, morris_effects, rank_regression,
+    regression, shapley_effects, sobol_indices, student_effects, vector_sobol_indices, wasserstein_bures,
 };
 use std::error::Error;
 
@@ -77,6 +77,11 @@ impl Method {
     }
 }
 
+/// An estimate and the ends of its interval, as measures that exist.
+fn known(of: Estimate) -> [Option<f64>; 3] {
+    [of.value, of.low, of.high].map(Some)
+}
+
 fn t_student(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
     let (design, outputs) = run.first()?;
     let effects = student_effects(&design, &outputs)?.effects;
@@ -124,9 +129,7 @@ fn morris(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn
     let outputs = run.observe(Design::Morris(run.spec.morris_levels), &design)?;
     let effects = morris_effects(&design, &outputs, run.settings.confidence)?;
     for (input, effect) in found.inputs.iter_mut().zip(effects) {
-        let mean = effect.mean_absolute;
-        [input.morris_mean_absolute, input.morris_low, input.morris_high] =
-            [mean.value, mean.low, mean.high].map(Some);
+        [input.morris_mean_absolute, input.morris_low, input.morris_high] = known(effect.mean_absolute);
         input.morris_reliable = Some(effect.reliable);
         input.morris_std = Some(effect.std);
     }
@@ -246,20 +249,16 @@ fn sobol(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn 
     let outputs: Vec<_> = measured.iter().map(|of| of.as_ref().map(Measured::value)).collect();
     let indices = sobol_indices(&design, &outputs, run.bootstrap(), run.settings.confidence)?;
     for (input, index) in found.inputs.iter_mut().zip(indices.inputs) {
-        [input.sobol_first, input.sobol_first_low, input.sobol_first_high] =
-            [index.first.value, index.first.low, index.first.high].map(Some);
-        [input.sobol_total, input.sobol_total_low, input.sobol_total_high] =
-            [index.total.value, index.total.low, index.total.high].map(Some);
+        [input.sobol_first, input.sobol_first_low, input.sobol_first_high] = known(index.first);
+        [input.sobol_total, input.sobol_total_low, input.sobol_total_high] = known(index.total);
     }
     if run.sampling.output().is_length() {
         let vector = |of: &Measured| components(of, run.spec.vector);
         let vectors: Vec<_> = measured.iter().map(|of| of.as_ref().and_then(vector)).collect();
         let of_vectors = vector_sobol_indices(&design, &vectors, run.bootstrap(), run.settings.confidence)?;
         for (input, index) in found.inputs.iter_mut().zip(of_vectors.inputs) {
-            [input.vector_first, input.vector_first_low, input.vector_first_high] =
-                [index.first.value, index.first.low, index.first.high].map(Some);
-            [input.vector_total, input.vector_total_low, input.vector_total_high] =
-                [index.total.value, index.total.low, index.total.high].map(Some);
+            [input.vector_first, input.vector_first_low, input.vector_first_high] = known(index.first);
+            [input.vector_total, input.vector_total_low, input.vector_total_high] = known(index.total);
         }
     }
     let (failed_blocks, reliable) = (Some(indices.failed_blocks), Some(indices.reliable));
@@ -281,10 +280,8 @@ fn sobol_of_groups(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>
     let outputs = run.observe(Design::Groups(Grouped::Saltelli, key(groups)), &design)?;
     let indices = sobol_indices(&design, &outputs, run.bootstrap(), run.settings.confidence)?;
     for (group, index) in found.groups.iter_mut().zip(indices.inputs) {
-        [group.sobol_first, group.sobol_first_low, group.sobol_first_high] =
-            [index.first.value, index.first.low, index.first.high].map(Some);
-        [group.sobol_total, group.sobol_total_low, group.sobol_total_high] =
-            [index.total.value, index.total.low, index.total.high].map(Some);
+        [group.sobol_first, group.sobol_first_low, group.sobol_first_high] = known(index.first);
+        [group.sobol_total, group.sobol_total_low, group.sobol_total_high] = known(index.total);
     }
     let (failed_blocks, reliable) = (Some(indices.failed_blocks), Some(indices.reliable));
     Ok(Some(MethodSummary { failed_blocks, reliable, ..MethodSummary::of(&outputs) }))
@@ -305,8 +302,7 @@ fn bures(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn 
     let vectors: Vec<_> = measured.iter().map(|of| of.as_ref().map(vector)).collect();
     let indices = wasserstein_bures(&columns, &vectors, run.settings.confidence, run.settings.seed)?;
     for (input, of) in found.inputs.iter_mut().zip(indices) {
-        [input.bures, input.bures_low, input.bures_high] =
-            [of.index.value, of.index.low, of.index.high].map(Some);
+        [input.bures, input.bures_low, input.bures_high] = known(of.index);
         input.bures_means = Some(of.means.value);
     }
     Ok(Some(MethodSummary::of(&vectors)))
@@ -320,8 +316,7 @@ fn shapley(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dy
     let outputs = run.observe(Design::Shapley, &design)?;
     let effects = shapley_effects(&design, &outputs, run.settings.confidence)?;
     for (input, of) in found.inputs.iter_mut().zip(effects) {
-        [input.shapley, input.shapley_low, input.shapley_high] =
-            [of.effect.value, of.effect.low, of.effect.high].map(Some);
+        [input.shapley, input.shapley_low, input.shapley_high] = known(of.effect);
     }
     let summary = MethodSummary::of(&outputs);
     found.candidates.extend(candidates::of_shapley(run, &found.inputs, &summary));

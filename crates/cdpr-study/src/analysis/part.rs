@@ -21,50 +21,41 @@ pub enum StudySummary {
     Poses(PosesSummary),
 }
 
+/// A value that all parts have.
+macro_rules! of_part {
+    ($summary:expr, $part:ident => $value:expr) => {
+        match $summary {
+            StudySummary::Sampling($part) => $value,
+            StudySummary::Surface($part) => $value,
+            StudySummary::Poses($part) => $value,
+        }
+    };
+}
+
 impl StudySummary {
     /// Title.
     pub fn title(&self) -> &str {
-        match self {
-            Self::Sampling(sampling) => &sampling.title,
-            Self::Surface(surface) => &surface.title,
-            Self::Poses(poses) => &poses.title,
-        }
+        of_part!(self, part => &part.title)
     }
 
     /// The answer in words.
     pub fn verdict(&self) -> &PartVerdict {
-        match self {
-            Self::Sampling(sampling) => &sampling.verdict,
-            Self::Surface(surface) => &surface.verdict,
-            Self::Poses(poses) => &poses.verdict,
-        }
+        of_part!(self, part => &part.verdict)
     }
 
     /// What is observed.
     pub fn output(&self) -> Output {
-        match self {
-            Self::Sampling(sampling) => sampling.output,
-            Self::Surface(surface) => surface.output,
-            Self::Poses(poses) => poses.output,
-        }
+        of_part!(self, part => part.output)
     }
 
     /// Observations or points of the grid, failed ones included.
     pub fn observations(&self) -> usize {
-        match self {
-            Self::Sampling(sampling) => sampling.observations,
-            Self::Surface(surface) => surface.observations,
-            Self::Poses(poses) => poses.observations,
-        }
+        of_part!(self, part => part.observations)
     }
 
     /// Failed ones by kind.
     pub fn failed(&self) -> &BTreeMap<String, usize> {
-        match self {
-            Self::Sampling(sampling) => &sampling.failed,
-            Self::Surface(surface) => &surface.failed,
-            Self::Poses(poses) => &poses.failed,
-        }
+        of_part!(self, part => &part.failed)
     }
 
     /// What of the nominal robot is above limits or breaking forces, as in `with the payload: cable 3 ...`.

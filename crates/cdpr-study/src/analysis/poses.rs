@@ -22,7 +22,7 @@ pub const HELD: &str = "held";
 
 /// A row of `NAME.csv`: position [m], rotation as a unit quaternion, statistics of the output in its unit.
 /// Values that do not exist are empty.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs)]
 pub struct PoseRow {
     /// Name of the sampling at this pose, of its blocks and of its table.
@@ -66,7 +66,7 @@ pub struct PoseRow {
 
 /// Summary of all poses of a sampling, serialized into `summary.json`. `NAME.csv` beside it has a row for
 /// each pose.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PosesSummary {
     /// Title.
@@ -74,7 +74,7 @@ pub struct PosesSummary {
     /// The answer in words.
     pub verdict: PartVerdict,
     /// What is observed.
-    #[serde(default, skip_serializing_if = "Output::is_deflection")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub output: Output,
     /// Number of poses.
     pub poses: usize,
@@ -93,7 +93,7 @@ pub struct PosesSummary {
     #[serde(rename = "std_mm")]
     pub std: Option<Extremes>,
     /// Number of poses at which tensions of the nominal robot are above their limits or breaking forces.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub out_of_limits: usize,
     /// Number of poses at which each parameter has the largest t-Student index.
     pub dominant: BTreeMap<String, usize>,
@@ -132,20 +132,13 @@ pub fn observe_poses(
     };
     let mut summary = PosesSummary {
         title: spec.title.clone(),
-        verdict: PartVerdict::default(),
         output: study.file.output,
         poses: count,
         grid: match poses {
             PoseSet::Grid(grid) => Some(grid),
             _ => None,
         },
-        status: BTreeMap::new(),
-        observations: 0,
-        failed: BTreeMap::new(),
-        mean: None,
-        std: None,
-        out_of_limits: 0,
-        dominant: BTreeMap::new(),
+        ..PosesSummary::default()
     };
     let one = |number: usize| {
         let name = poses.name(name, number);
@@ -184,11 +177,6 @@ pub fn observe_poses(
     (summary.mean, summary.std) = (over(|row| row.mean), over(|row| row.std));
     summary.verdict.sentences = summary.sentences();
     Ok(PosesResult { summary, rows })
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref)]
-fn is_zero(count: &usize) -> bool {
-    *count == 0
 }
 
 impl PosesSummary {
@@ -243,28 +231,7 @@ impl PoseRow {
     /// A pose without any result.
     fn at(sampling: String, pose: &Pose) -> Self {
         let ([x, y, z], [qw, qx, qy, qz]) = (pose.position.into(), pose.quaternion());
-        Self {
-            sampling,
-            x,
-            y,
-            z,
-            qw,
-            qx,
-            qy,
-            qz,
-            status: String::new(),
-            observations: 0,
-            failed: 0,
-            nominal: None,
-            mean: None,
-            std: None,
-            min: None,
-            max: None,
-            dominant: None,
-            dominant_t: None,
-            dominant_effect: None,
-            reason: None,
-        }
+        Self { sampling, x, y, z, qw, qx, qy, qz, ..Self::default() }
     }
 
     fn held(sampling: &Sampling, tally: &Tally) -> Self {

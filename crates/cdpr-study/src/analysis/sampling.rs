@@ -31,7 +31,7 @@ pub struct SamplingSummary {
     /// The answer in words, and the recommended measure of the inputs.
     pub verdict: PartVerdict,
     /// What is observed.
-    #[serde(default, skip_serializing_if = "Output::is_deflection")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub output: Output,
     /// Position of the wanted pose [m].
     pub pose: [f64; 3],
@@ -302,7 +302,7 @@ fn unmoved(sampling: &Sampling, tally: &Tally, rounding: f64) -> SamplingSummary
         observations: sampling.design.points(),
         failed: tally.failed.clone(),
         scalar: tally.scalar.clone(),
-        values: Some(ValueSummary::ZERO),
+        values: Some(ValueSummary::default()),
         nominal: NominalSummary::new(sampling.robot, &sampling.nominal, &sampling.load),
         operating_moduli_gpa: sampling.operating_moduli.map(|moduli| moduli.map(|modulus| 1e-9 * modulus)),
         fits: Vec::new(),

@@ -54,7 +54,7 @@ pub struct SensitivitySummary {
     /// Where the measures agree.
     pub agreement: Agreement,
     /// What the indices of vectors are of.
-    #[serde(default, skip_serializing_if = "VectorOutput::is_displacement")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub vector: VectorOutput,
     /// What could not be measured, and why.
     pub notes: Vec<String>,

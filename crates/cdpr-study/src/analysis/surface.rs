@@ -31,7 +31,7 @@ pub struct SurfaceSummary {
     /// The answer in words.
     pub verdict: PartVerdict,
     /// What is observed.
-    #[serde(default, skip_serializing_if = "Output::is_deflection")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub output: Output,
     /// Position of the wanted pose [m].
     pub pose: [f64; 3],

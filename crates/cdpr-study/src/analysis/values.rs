@@ -6,7 +6,7 @@ use cdpr_sensitivity::{Sample, SensitivityError, Summary};
 use serde::{Deserialize, Serialize};
 
 /// Summary of the output in its unit.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ValueSummary {
     /// Mean.
     pub mean: f64,
@@ -37,20 +37,6 @@ impl ValueSummary {
         let sample = Sample::new(&tally.first_values).ok()?;
         Self::new(&moments, &sample, tally.range()?, sampling.nominal_value).ok()
     }
-
-    /// Of a robot without any change.
-    pub(crate) const ZERO: Self = Self {
-        mean: 0.0,
-        std: 0.0,
-        min: 0.0,
-        max: 0.0,
-        nominal: 0.0,
-        q01: 0.0,
-        q25: 0.0,
-        median: 0.0,
-        q75: 0.0,
-        q99: 0.0,
-    };
 
     pub(crate) fn new(
         summary: &Summary,

@@ -56,12 +56,6 @@ impl VectorOutput {
             Self::Pose { .. } => Recorded::Motion,
         }
     }
-
-    /// Whether it is the displacement, the only vector of earlier versions.
-    #[allow(clippy::trivially_copy_pass_by_ref)]
-    pub(crate) fn is_displacement(&self) -> bool {
-        *self == Self::Displacement
-    }
 }
 
 impl fmt::Display for VectorOutput {
@@ -156,13 +150,6 @@ pub(crate) enum Recorded {
     Output,
     /// The displacement whose length is the output, and its rotation.
     Motion,
-}
-
-impl Recorded {
-    #[allow(clippy::trivially_copy_pass_by_ref)]
-    pub(crate) fn is_output(&self) -> bool {
-        *self == Self::Output
-    }
 }
 
 /// What an output is called.
@@ -284,12 +271,6 @@ impl Output {
             Some(before) => format!("{before}{}", self.words().ending),
             None => of_deflection.to_owned(),
         }
-    }
-
-    /// Whether it is the deflection, the only output of earlier versions.
-    #[allow(clippy::trivially_copy_pass_by_ref)]
-    pub(crate) fn is_deflection(&self) -> bool {
-        *self == Self::Deflection
     }
 
     /// Whether it depends on the inertia of the platform.

@@ -32,15 +32,15 @@ pub struct SensitivitySpec {
     pub derivative_points: usize,
     /// Walks behind Shapley effects, of k + 1 observations: 16 to 1048576, or 0 for none. They share the
     /// variance between the inputs, also between correlated ones.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "crate::file::is_default")]
     pub shapley_walks: usize,
     /// Random observations behind the index of Wasserstein and Bures: how much a parameter moves the law of
     /// the vector below, or of another output. 64 to 1048576, or 0 for none.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "crate::file::is_default")]
     pub bures_observations: usize,
     /// The vector of the indices of vectors and of Wasserstein and Bures: "displacement" without the field, or
     /// {"pose": {"characteristic_length": L}} for displacement and rotation times L [m].
-    #[serde(skip_serializing_if = "VectorOutput::is_displacement")]
+    #[serde(skip_serializing_if = "crate::file::is_default")]
     pub vector: VectorOutput,
     /// Whether an expansion is fitted to the derivatives as well, at the points where they are taken.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
@@ -134,9 +134,4 @@ impl SensitivitySpec {
             .or_else(|| unsound.map(of_length))
             .or_else(|| (!sound_norm).then(of_norm))
     }
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref)]
-fn is_zero(count: &usize) -> bool {
-    *count == 0
 }

@@ -36,17 +36,17 @@ pub struct StudyFile {
     #[serde(default)]
     pub payload: f64,
     /// Force on the platform in the base frame [N], which comes with the payload.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub force: [f64; 3],
     /// Moment on the platform in the base frame, about P [N m], which comes with the payload.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub moment: [f64; 3],
     /// The weather that comes after the load. The displacement of P is then that from the pose without load
     /// and weather, and the output a deflection or a position.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weather: Option<WeatherSpec>,
     /// What is observed of every robot: "deflection" unless another output is named.
-    #[serde(default, skip_serializing_if = "Output::is_deflection")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub output: Output,
     /// The force that shakes the platform; only where the output is "amplitude".
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -108,10 +108,6 @@ impl StudyFile {
         let [force, moment] = [self.force, self.moment].map(Vector3::from);
         Load { payload: self.payload, wrench: Wrench { force, moment } }
     }
-}
-
-fn is_zero(vector: &[f64; 3]) -> bool {
-    *vector == [0.0; 3]
 }
 
 /// An error model as a file may have it: where it is read, files are put in their places.

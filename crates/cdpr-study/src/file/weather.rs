@@ -34,19 +34,19 @@ pub struct WeatherSpec {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wind_profile: Option<WindProfileSpec>,
     /// How much warmer it is [K].
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub warmer: f64,
     /// Thermal expansion of the cables [1/K]: about 1.2e-5 of steel; fibres shrink.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub cable_expansion: f64,
     /// Thermal expansion of the frame, from the origin of the base frame [1/K].
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub frame_expansion: f64,
     /// Thickness of the ice around each cable [m], of 900 kg/m³.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub ice: f64,
     /// Strain by which each cable has crept.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub creep: f64,
 }
 
@@ -58,11 +58,6 @@ pub struct WindProfileSpec {
     pub roughness: f64,
     /// Height above the ground at which the wind has its speed [m].
     pub reference: f64,
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref)]
-fn is_zero(number: &f64) -> bool {
-    *number == 0.0
 }
 
 /// A number of the weather that may be uncertain.

@@ -5,7 +5,8 @@ use crate::error::StudyError;
 use crate::kind::InputKind;
 use crate::table::{Table, TableError};
 use cdpr_robot::library::ROBOTS;
-use serde::de::IgnoredAny;
+use cdpr_robot::{JsonError, from_json};
+use serde::de::{DeserializeOwned, IgnoredAny};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
@@ -144,6 +145,32 @@ fn read_pipe(mut pipe: File, most: u64) -> io::Result<Vec<u8>> {
         }
     }
     Ok(bytes)
+}
+
+/// The content of a file of JSON, from its text; `path` names it in errors.
+///
+/// # Errors
+/// [`StudyError::OtherKind`], [`StudyError::Format`].
+pub fn from_text<T: DeserializeOwned>(text: &str, path: &Path, kind: InputKind) -> Result<T, StudyError> {
+    from_json(text).map_err(|source| {
+        let source = about_poses(source, text);
+        let other = other_kind(path, text, kind);
+        other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
+    })
+}
+
+/// Says of poses that are a bare list how they are written.
+fn about_poses(error: JsonError, text: &str) -> JsonError {
+    let row = text.lines().nth(error.line.saturating_sub(1)).unwrap_or_default();
+    let at = row.get(error.column.saturating_sub(1)..).unwrap_or_default();
+    match error.field == "poses" || error.field.ends_with(".poses") {
+        true if at.starts_with('[') => JsonError {
+            message: "a list: expected {\"list\": [{\"position\": [x, y, z]}, ..]} or {\"grid\": {..}}"
+                .to_owned(),
+            ..error
+        },
+        _ => error,
+    }
 }
 
 /// The error of a text that was not read as one kind because it is of another.

@@ -59,13 +59,13 @@ impl Lock {
         }
     }
 
-    /// Takes it again with another access. In between, the folder is anybody's.
-    pub(super) fn take_again(&self, folder: &Path, access: Access) -> Result<(), StudyError> {
+    /// Takes it again, shared. In between, the folder is anybody's.
+    pub(super) fn share(&self, folder: &Path) -> Result<(), StudyError> {
         let path = folder.join(LOCK_NAME);
         let write = |source| StudyError::Write { path: path.clone(), source };
         self.0.unlock().map_err(write)?;
         let clock = Instant::now();
-        while !disk::lock(&self.0, &path, access == Access::Shared).map_err(write)? {
+        while !disk::lock(&self.0, &path, true).map_err(write)? {
             if clock.elapsed() > PATIENCE {
                 return Err(StudyError::FolderBusy { folder: folder.to_owned() });
             }

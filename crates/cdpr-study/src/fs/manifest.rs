@@ -91,12 +91,8 @@ impl Manifest {
         }
         let manifest: Self = from_json(&read_text(&path, InputKind::Results)?)
             .map_err(|source| StudyError::Format { path: path.clone(), source })?;
-        let invalid = |field: &str, value: &str, expected: &str| StudyError::Invalid {
-            path: path.clone(),
-            field: field.to_owned(),
-            value: value.to_owned(),
-            expected: expected.to_owned(),
-        };
+        let invalid =
+            |field: &str, value: &str, expected: &str| StudyError::invalid(&path, field, value, expected);
         if manifest.format != MANIFEST_FORMAT {
             return Err(invalid("format", &manifest.format, MANIFEST_FORMAT));
         }

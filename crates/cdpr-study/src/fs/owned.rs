@@ -120,20 +120,8 @@ impl ResultsFolder {
         if !self.is_alone() {
             return Ok(());
         }
-        self.take_again(Access::Shared)
-    }
-
-    /// Takes the folder alone again when the others are done.
-    ///
-    /// # Errors
-    /// As [`ResultsFolder::share`].
-    pub(crate) fn take_alone(&self) -> Result<(), StudyError> {
-        self.take_again(Access::Alone)
-    }
-
-    fn take_again(&self, access: Access) -> Result<(), StudyError> {
-        self.lock.take_again(&self.path, access)?;
-        self.state().alone = access == Access::Alone;
+        self.lock.share(&self.path)?;
+        self.state().alone = false;
         match Manifest::read(&self.path)? {
             Some(found) if found.study == self.state().manifest.study => Ok(()),
             _ => Err(StudyError::FolderBusy { folder: self.path.clone() }),

@@ -235,16 +235,7 @@ impl GivenTable {
     }
 
     pub(super) fn invalid(&self, field: &str, value: &str, expected: &str) -> StudyError {
-        invalid(&self.path, field, value, expected)
-    }
-}
-
-pub(super) fn invalid(path: &Path, field: &str, value: &str, expected: &str) -> StudyError {
-    StudyError::Invalid {
-        path: path.to_owned(),
-        field: field.to_owned(),
-        value: value.to_owned(),
-        expected: expected.to_owned(),
+        StudyError::invalid(&self.path, field, value, expected)
     }
 }
 

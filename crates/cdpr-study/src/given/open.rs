@@ -4,7 +4,7 @@ use crate::error::StudyError;
 use crate::fs::input::read_table;
 use crate::fs::lock::hold_still;
 use crate::fs::manifest::check_unchanged;
-use crate::given::columns::{GivenTable, invalid};
+use crate::given::columns::GivenTable;
 use crate::kind::InputKind;
 use std::path::{Path, PathBuf};
 
@@ -32,7 +32,12 @@ fn read(path: &Path) -> Result<GivenTable, StudyError> {
         #[cfg(feature = "parquet")]
         return Ok(GivenTable::of(path, crate::given::parquet::read(path)?));
         #[cfg(not(feature = "parquet"))]
-        return Err(invalid(path, "format", "Parquet", "CSV, or a program built with the feature `parquet`"));
+        return Err(StudyError::invalid(
+            path,
+            "format",
+            "Parquet",
+            "CSV, or a program built with the feature `parquet`",
+        ));
     }
     Ok(GivenTable::of(path, read_table(path, InputKind::Table)?))
 }
@@ -40,6 +45,8 @@ fn read(path: &Path) -> Result<GivenTable, StudyError> {
 /// The table of this name in a folder, or its only one.
 fn in_folder(folder: &Path, name: Option<&str>) -> Result<PathBuf, StudyError> {
     let unread = |source| StudyError::Read { path: folder.to_owned(), source };
+    let invalid =
+        |field: &str, value: &str, expected: &str| StudyError::invalid(folder, field, value, expected);
     let mut tables: Vec<PathBuf> = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(unread)? {
         let path = entry.map_err(unread)?.path();
@@ -54,11 +61,11 @@ fn in_folder(folder: &Path, name: Option<&str>) -> Result<PathBuf, StudyError> {
         (Some(name), _) => {
             let expected = format!("one of its tables: {names}");
             let found = tables.iter().find(|path| stem(path) == name);
-            found.cloned().ok_or_else(|| invalid(folder, "table", name, &expected))
+            found.cloned().ok_or_else(|| invalid("table", name, &expected))
         }
         (None, [only]) => Ok(only.clone()),
-        (None, []) => Err(invalid(folder, "tables", "an empty list", "a folder with tables of observations")),
-        (None, _) => Err(invalid(folder, "table", "one of several", &format!("the name of one: {names}"))),
+        (None, []) => Err(invalid("tables", "an empty list", "a folder with tables of observations")),
+        (None, _) => Err(invalid("table", "one of several", &format!("the name of one: {names}"))),
     }
 }
 

@@ -3,10 +3,10 @@
 
 use crate::error::StudyError;
 use crate::file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve};
-use crate::fs::input::{other_kind, read_text};
+use crate::fs::input::{from_text, read_text};
 use crate::kind::InputKind;
 use cdpr_cable::{CableError, Phase, PiecewiseLaw, Record, RecordError, TangentModulus};
-use cdpr_robot::{CableProperties, LawSegment, Robot, RobotCable, Segment, from_json};
+use cdpr_robot::{CableProperties, LawSegment, Robot, RobotCable, Segment};
 use cdpr_statics::hysteresis::{HysteresisLaw, Unloading};
 use std::path::Path;
 
@@ -106,10 +106,7 @@ pub fn open_law(path: &Path) -> Result<CableLaw, StudyError> {
 /// # Errors
 /// [`StudyError::Format`]; [`StudyError::Invalid`] for an invalid law.
 pub fn read_law(text: &str, path: &Path) -> Result<CableLaw, StudyError> {
-    let file: LawFile = from_json(text).map_err(|source| {
-        let other = other_kind(path, text, InputKind::Law);
-        other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
-    })?;
+    let file: LawFile = from_text(text, path, InputKind::Law)?;
     let wrong = if file.format == LAW_FORMAT {
         file.law.invalid().map(|(field, value, expected)| (format!("law.{field}"), value, expected))
     } else {

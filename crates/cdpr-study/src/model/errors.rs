@@ -3,10 +3,10 @@
 use crate::error::StudyError;
 use crate::file::errors_file::ErrorsFile;
 use crate::file::study_file::InputSpec;
-use crate::fs::input::{other_kind, read_text};
+use crate::fs::input::{from_text, read_text};
 use crate::kind::InputKind;
 use crate::model::error_model::{ErrorModel, Wrong};
-use cdpr_robot::{Robot, from_json};
+use cdpr_robot::Robot;
 use cdpr_sensitivity::SensitivityError;
 use indexmap::IndexMap;
 use serde_json::Value;
@@ -49,14 +49,10 @@ fn is_correlated(model: &Value) -> bool {
 /// The entries of an error model from its text: `cdpr-errors/1`, or an object as a study has it in
 /// `error_models`.
 fn entries_of(text: &str, path: &Path) -> Result<IndexMap<String, InputSpec>, StudyError> {
-    let unread = |source| {
-        let other = other_kind(path, text, InputKind::Errors);
-        other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
-    };
     if !serde_json::from_str::<Value>(text).is_ok_and(|value| is_correlated(&value)) {
-        return from_json(text).map_err(unread);
+        return from_text(text, path, InputKind::Errors);
     }
-    let file: ErrorsFile = from_json(text).map_err(unread)?;
+    let file: ErrorsFile = from_text(text, path, InputKind::Errors)?;
     file.entries().map_err(|(field, value, expected)| {
         StudyError::Invalid { path: path.to_owned(), field, value, expected }.placed(text)
     })

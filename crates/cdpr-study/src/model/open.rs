@@ -5,14 +5,14 @@ use crate::file::output::{AmplitudeSpec, Output, VectorOutput};
 use crate::file::sensitivity_spec::SensitivitySpec;
 use crate::file::study_file::{STUDY_FORMAT, SamplingSpec, StudyFile};
 use crate::fs::files::open_robot_from;
-use crate::fs::input::{other_kind, read_text};
+use crate::fs::input::{from_text, read_text};
 use crate::kind::InputKind;
 use crate::model::errors::with_error_files;
 use crate::model::nominal::Nominals;
 use crate::model::prepare::FEWEST_OBSERVATIONS;
 use crate::model::study::Study;
 use crate::names::BLOCKS_NAME;
-use cdpr_robot::{Coordinate, Robot, RobotError, TensionDistribution, TensionReference, from_json};
+use cdpr_robot::{Coordinate, Robot, RobotError, TensionDistribution, TensionReference};
 use cdpr_statics::{Load, check_lengths};
 use std::path::Path;
 
@@ -64,7 +64,7 @@ impl Study {
     fn read(text: &str, path: &Path, robot: Option<Robot>) -> Result<Self, StudyError> {
         let whole = with_error_files(text, path)?;
         let study = match robot {
-            Some(robot) => file_of(&whole, path).map(|file| Self::of(file, robot, path)),
+            Some(robot) => from_text(&whole, path, InputKind::Study).map(|file| Self::of(file, robot, path)),
             None => Self::unchecked(&whole, path),
         };
         // Where files were put in, places of the whole text are not those of the user's.
@@ -89,7 +89,7 @@ impl Study {
 
     /// A study and its robot whose values together are not checked yet: enough to know them by their hash.
     pub(crate) fn unchecked(text: &str, path: &Path) -> Result<Self, StudyError> {
-        let file = file_of(text, path)?;
+        let file: StudyFile = from_text(text, path, InputKind::Study)?;
         let robot = open_robot_from(path.parent().unwrap_or(Path::new(".")), &file.robot)?;
         Ok(Self::of(file, robot, path))
     }
@@ -189,7 +189,7 @@ impl Study {
             }
         }
         let is_loaded =
-            file.load() != Load::none() || !file.output.is_deflection() || self.is_in_weather()?;
+            file.load() != Load::none() || file.output != Output::Deflection || self.is_in_weather()?;
         if !(file.payload.is_finite() && file.payload >= 0.0 && is_loaded) {
             let expected = match file.output {
                 Output::Deflection => {
@@ -382,12 +382,4 @@ impl Study {
         self.correlation(name, spec, &design)?;
         self.check_poses(name, &set)
     }
-}
-
-/// The study file of a text.
-fn file_of(text: &str, path: &Path) -> Result<StudyFile, StudyError> {
-    from_json(text).map_err(|source| {
-        let other = other_kind(path, text, InputKind::Study);
-        other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
-    })
 }

@@ -118,12 +118,7 @@ impl Study {
     }
 
     pub(crate) fn invalid(&self, field: &str, value: impl ToString, expected: &str) -> StudyError {
-        StudyError::Invalid {
-            path: self.path.clone(),
-            field: field.to_owned(),
-            value: value.to_string(),
-            expected: expected.to_owned(),
-        }
+        StudyError::invalid(&self.path, field, value, expected)
     }
 }
 

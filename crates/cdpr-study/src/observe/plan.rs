@@ -141,11 +141,8 @@ impl<'a> BlockMaker<'a> {
         };
         // Made when the first block needs it: Saltelli's takes seconds.
         if self.design.as_ref().is_none_or(|(known, _)| *known != kind) {
-            let design = kind.make(sampling).map_err(|source| StudyError::Statistics {
-                path: study.path.clone(),
-                field: format!("samplings.{name}: design `{design_name}`"),
-                source,
-            })?;
+            let field = || format!("samplings.{name}: design `{design_name}`");
+            let design = kind.make(sampling).map_err(|source| study.statistics(field(), source))?;
             self.design = Some((kind, design));
         }
         if let Some((_, design)) = &self.design {

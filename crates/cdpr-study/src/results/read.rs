@@ -131,28 +131,18 @@ fn read_summary(path: &Path) -> Result<Summary, StudyError> {
     from_json(&format!("{summary:#}")).map_err(|source| StudyError::Format { path: path.to_owned(), source })
 }
 
-/// Reads the table that `write_poses` has written.
+/// Reads the table of a sampling at several poses.
 fn read_poses(path: &Path, text: &str, summary: &PosesSummary) -> Result<Vec<PoseRow>, StudyError> {
-    let invalid = |field: String, value: String, expected: String| StudyError::Invalid {
-        path: path.to_owned(),
-        field,
-        value,
-        expected,
-    };
     let text = To::Memory.table(summary.output, text);
     let rows = csv::Reader::from_reader(text.as_bytes()).into_deserialize().enumerate();
     let row = |(k, row): (usize, Result<PoseRow, csv::Error>)| {
         row.map_err(|error| {
-            invalid(format!("row {}", k + 1), error.to_string(), "a pose and its results".to_owned())
+            StudyError::invalid(path, &format!("row {}", k + 1), error, "a pose and its results")
         })
     };
     let rows: Vec<_> = rows.map(row).collect::<Result<_, _>>()?;
     if rows.len() != summary.poses {
-        return Err(invalid(
-            "rows".to_owned(),
-            rows.len().to_string(),
-            format!("{}, one a pose", summary.poses),
-        ));
+        return Err(StudyError::invalid(path, "rows", rows.len(), &format!("{}, one a pose", summary.poses)));
     }
     Ok(rows)
 }
@@ -163,18 +153,12 @@ fn read_surface(
     text: &str,
     summary: &SurfaceSummary,
 ) -> Result<SurfaceResult<String>, StudyError> {
-    let invalid = |field: String, value: &str, expected: &str| StudyError::Invalid {
-        path: path.to_owned(),
-        field,
-        value: value.to_owned(),
-        expected: expected.to_owned(),
-    };
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let mut points = Vec::new();
     let expected = format!("two parameters, {} and status", summary.output.name());
     for (k, record) in reader.deserialize::<(f64, f64, Option<f64>, String)>().enumerate() {
         let (x, y, value, status) =
-            record.map_err(|error| invalid(format!("row {}", k + 1), &error.to_string(), &expected))?;
+            record.map_err(|error| StudyError::invalid(path, &format!("row {}", k + 1), error, &expected))?;
         points.push((x, y, value.ok_or(status)));
     }
     let columns = points.iter().take_while(|point| point.0 == points[0].0).count();
@@ -183,7 +167,7 @@ fn read_surface(
     if !(whole && (0..points.len()).all(same)) {
         let expected =
             format!("a grid of {} points, the second parameter running faster", summary.observations);
-        return Err(invalid("rows".to_owned(), &points.len().to_string(), &expected));
+        return Err(StudyError::invalid(path, "rows", points.len(), &expected));
     }
     Ok(SurfaceResult {
         x: points.iter().step_by(columns).map(|point| point.0).collect(),

@@ -1,8 +1,6 @@
 //! Result files: observations as CSV, the summary as JSON.
 
 use crate::analysis::keys::To;
-use crate::analysis::poses::PoseRow;
-use crate::analysis::sensitivity::SensitivitySummary;
 use crate::analysis::summary::Summary;
 use crate::analysis::surface::SurfaceResult;
 use crate::error::StudyError;
@@ -42,36 +40,11 @@ pub fn write_surface(
     folder.write_csv(&format!("{}.csv", surface.name), header, rows)
 }
 
-/// Writes `NAME_sensitivity.csv`: one row an input, with what each measure says of it; shares and indices
-/// have no unit, a method that has failed leaves its cells empty. Indices of vectors and Shapley effects have
-/// columns where the study has them.
-///
-/// # Errors
-/// As [`ResultsFolder::claim`].
-pub fn write_sensitivity(
-    folder: &ResultsFolder,
-    name: &str,
-    output: Output,
-    sensitivity: &SensitivitySummary,
-) -> Result<PathBuf, StudyError> {
-    write_named(folder, &format!("{name}_sensitivity.csv"), output, &sensitivity.inputs)
-}
-
-/// Writes `NAME.csv` of a sampling at several poses: one row each.
-///
-/// # Errors
-/// As [`ResultsFolder::claim`].
-pub fn write_poses(
-    folder: &ResultsFolder,
-    name: &str,
-    output: Output,
-    rows: &[PoseRow],
-) -> Result<PathBuf, StudyError> {
-    write_named(folder, &format!("{name}.csv"), output, rows)
-}
-
 /// Writes a table whose header has the names of an output.
-fn write_named<T: Serialize>(
+///
+/// # Errors
+/// As [`ResultsFolder::claim`].
+pub(crate) fn write_named<T: Serialize>(
     folder: &ResultsFolder,
     name: &str,
     output: Output,

@@ -45,10 +45,10 @@ pub(crate) struct BlockHeader {
     /// Number of observations.
     pub(crate) observations: usize,
     /// What is observed.
-    #[serde(default, skip_serializing_if = "Output::is_deflection")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub(crate) output: Output,
     /// What it keeps of each observation.
-    #[serde(default, skip_serializing_if = "Recorded::is_output")]
+    #[serde(default, skip_serializing_if = "crate::file::is_default")]
     pub(crate) recorded: Recorded,
     /// Failed ones by kind.
     pub(crate) failed: BTreeMap<String, usize>,

@@ -90,14 +90,6 @@ impl Blocks {
         self.results()?.share()
     }
 
-    /// Takes the folder alone again when the others are done.
-    ///
-    /// # Errors
-    /// As [`Blocks::share`].
-    pub fn take_alone(&self) -> Result<(), StudyError> {
-        self.results()?.take_alone()
-    }
-
     pub(crate) fn path(&self, id: &BlockId) -> PathBuf {
         let folder = self.folder.join(id.sampling).join(id.design);
         folder.join(format!("{:06}.block", id.number))

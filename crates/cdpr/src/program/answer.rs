@@ -37,13 +37,13 @@ impl Residual {
 #[derive(Serialize)]
 pub(crate) struct Borne {
     /// Mass [kg].
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "is_default")]
     payload: f64,
     /// Components in the base frame [N].
-    #[serde(skip_serializing_if = "are_zero")]
+    #[serde(skip_serializing_if = "is_default")]
     force: [f64; 3],
     /// Components about P in the base frame [N m].
-    #[serde(skip_serializing_if = "are_zero")]
+    #[serde(skip_serializing_if = "is_default")]
     moment: [f64; 3],
 }
 
@@ -53,12 +53,8 @@ impl From<&Load> for Borne {
     }
 }
 
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
-}
-
-fn are_zero(values: &[f64; 3]) -> bool {
-    values.iter().all(is_zero)
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 /// A tension outside of what a cable is to bear, or can bear.
@@ -118,6 +114,11 @@ impl OutOfLimits {
     /// Whether the cable breaks or may not be strained so.
     pub(crate) fn is_too_much(&self) -> bool {
         self.found.is_too_much()
+    }
+
+    /// By how much the limit is passed, as a share of it.
+    pub(crate) fn excess(&self) -> f64 {
+        self.found.excess()
     }
 
     /// A cable that is slack answers the question; one that breaks or may not be strained so does not.

@@ -189,7 +189,6 @@ fn with_options(error: &StudyError) -> String {
             ": `cdpr robot import` makes a robot file of a table of points"
         }
         StudyError::OtherKind { found: InputKind::Table, .. } => ": `cdpr analyse` takes it",
-        StudyError::NoSuchName { kind: InputKind::Cable, .. } => "; `cdpr robot list` lists them all",
         StudyError::NoSuchName { .. } => "; `cdpr robot list` lists them all",
         StudyError::FileExists { .. } => "; --overwrite replaces it",
         StudyError::ResultsExist { .. } => "; --overwrite replaces them",

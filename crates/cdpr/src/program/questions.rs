@@ -104,6 +104,11 @@ pub(crate) fn open_errors(path: &Path, robot: &Robot) -> Result<ErrorModel, Prog
     Ok(model)
 }
 
+/// Asks about what a design file says.
+pub(crate) fn about_design(path: &Path, doubts: impl IntoIterator<Item = Doubt>) {
+    ask_in(path, doubts);
+}
+
 /// Asks about the deviations of an error model.
 pub(crate) fn about_model(robot: &Robot, model: &ErrorModel) {
     ask(model.doubts(robot));

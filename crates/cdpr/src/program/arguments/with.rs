@@ -28,6 +28,12 @@ pub(crate) fn with(text: &str) -> Result<With, String> {
 }
 
 impl With {
+    /// What is given, none of it with a name that a command does not have.
+    pub(crate) fn known(given: Option<&Self>, names: &[&str]) -> Result<Self, ProgramError> {
+        let given = given.cloned().unwrap_or_default();
+        given.check(names).map(|()| given)
+    }
+
     /// Refuses names that a command does not have.
     pub(crate) fn check(&self, known: &[&str]) -> Result<(), ProgramError> {
         match self.0.iter().find(|(name, _)| !known.contains(&name.as_str())) {

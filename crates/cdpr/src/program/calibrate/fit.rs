@@ -146,8 +146,7 @@ impl Settings {
 
     /// The settings of the fit, and the number of folds.
     fn fit(&self) -> Result<(FitSettings, usize), ProgramError> {
-        let with = self.with.clone().unwrap_or_default();
-        with.check(&["loss", "starts", "folds", "only-identifiable"])?;
+        let with = With::known(self.with.as_ref(), &["loss", "starts", "folds", "only-identifiable"])?;
         let loss = |text: &str| match text {
             "squares" => Ok(RobustLoss::Squares),
             "huber" => Ok(RobustLoss::Huber),

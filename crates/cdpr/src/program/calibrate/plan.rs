@@ -97,8 +97,7 @@ impl CriterionName {
 
 impl Settings {
     fn criterion(&self) -> Result<CriterionName, ProgramError> {
-        let with = self.with.clone().unwrap_or_default();
-        with.check(&["criterion"])?;
+        let with = arguments::With::known(self.with.as_ref(), &["criterion"])?;
         let found = with.value("criterion", None, |name| {
             let names = || CriterionName::value_variants().iter().filter_map(ValueEnum::to_possible_value);
             CriterionName::from_str(name, true).map_err(|_| {

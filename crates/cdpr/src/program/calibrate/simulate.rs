@@ -55,8 +55,7 @@ pub(crate) struct Settings {
 
 pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let robot = settings.preference.open_robot(settings.robot.path())?;
-    let with = settings.with.clone().unwrap_or_default();
-    with.check(&["winch-cells"])?;
+    let with = arguments::With::known(settings.with.as_ref(), &["winch-cells"])?;
     let poses = settings.candidates.read(&robot)?;
     let model = settings.uncertainty.needed(&robot)?;
     let noise = settings.noise.named(&robot);

@@ -39,8 +39,7 @@ const TILT_ACCURACY: f64 = 0.01;
 
 pub(crate) fn run(Settings { at, free, set, with }: &Settings) -> Result<Ending, ProgramError> {
     let (load, set) = (at.load.load(), set.set()?);
-    let with = with.clone().unwrap_or_default();
-    with.check(&["tilt"])?;
+    let with = With::known(with.as_ref(), &["tilt"])?;
     let tilt = with.value("tilt", Some(8), count::<1, 360>)?;
     if tilt.is_some() && !free.free.is_empty() {
         let expected = "--with tilt: expected no --free: there the rotation follows from the position";

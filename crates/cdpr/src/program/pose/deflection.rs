@@ -31,8 +31,7 @@ pub(crate) struct Settings {
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let RobotAtFreePose { at, free } = &settings.at;
     let details = settings.details.details;
-    let with = settings.with.clone().unwrap_or_default();
-    with.check(&WEATHER)?;
+    let with = With::known(settings.with.as_ref(), &WEATHER)?;
     let Some(weather) = settings.wind.weather(&with)? else {
         let load = at.load.some_load()?;
         let solve = |robot: &Robot, pose: &Pose| {

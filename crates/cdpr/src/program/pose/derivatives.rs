@@ -50,8 +50,8 @@ pub(crate) struct Settings {
 pub(crate) fn run(
     Settings { at: RobotAtFreePose { at, free }, errors, with, wind, marker, details }: &Settings,
 ) -> Result<Ending, ProgramError> {
-    let with = with.clone().unwrap_or_default();
-    with.check(&[&["amplitude", "damping", "drag", "along"], &WEATHER[..]].concat())?;
+    let with =
+        With::known(with.as_ref(), &[&["amplitude", "damping", "drag", "along"], &WEATHER[..]].concat())?;
     let weather = wind.weather(&with)?;
     let load = at.load.some_load()?;
     let is_table = match at.printing.format() {

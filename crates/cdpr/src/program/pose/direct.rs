@@ -117,8 +117,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
 
 impl Settings {
     fn how(&self) -> Result<How, ProgramError> {
-        let with = self.with.clone().unwrap_or_default();
-        with.check(&["certificate", "starts"])?;
+        let with = arguments::With::known(self.with.as_ref(), &["certificate", "starts"])?;
         let starts = with.value("starts", None, arguments::count::<1, 10_000>)?;
         Ok(How { certify: with.has("certificate")?, starts })
     }

@@ -106,8 +106,7 @@ struct AtPulley {
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
-    let with = settings.with.clone().unwrap_or_default();
-    with.check(&["steps", "same-tension", "friction", "bearing"])?;
+    let with = With::known(settings.with.as_ref(), &["steps", "same-tension", "friction", "bearing"])?;
     let (mu, bearing) = (with.value("friction", None, number)?, with.value("bearing", None, number)?);
     let friction = PulleyFriction { friction: mu.unwrap_or(0.0), bearing: bearing.unwrap_or(0.0) };
     // Zeros are a friction, too: then elastic cables have no loop.

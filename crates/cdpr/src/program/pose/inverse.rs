@@ -31,8 +31,7 @@ pub(crate) struct Settings {
 
 pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, ProgramError> {
     let load = at.load.load();
-    let with = with.clone().unwrap_or_default();
-    with.check(&["path", "change", "loops"])?;
+    let with = With::known(with.as_ref(), &["path", "change", "loops"])?;
     let change = with.value("change", None, number)?;
     let loops = with.has("loops")?;
     if loops && free.free.is_empty() {

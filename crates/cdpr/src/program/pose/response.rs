@@ -53,8 +53,7 @@ pub(crate) struct Settings {
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let Settings { at, figure, .. } = settings;
-    let with = settings.with.clone().unwrap_or_default();
-    with.check(&["damping", "drag"])?;
+    let with = With::known(settings.with.as_ref(), &["damping", "drag"])?;
     let damping = with.damping()?.unwrap_or(Damping::USUAL);
     let is_table = matches!(at.printing.format(), Format::Csv) && at.pose()?.is_some();
     if !is_table && figure.is_none() {
@@ -203,10 +202,7 @@ impl Answer {
     }
 
     fn print(&self, heading: &str) {
-        let greatest = |one: &&At, other: &&At| one.amplitude_m_per_n.total_cmp(&other.amplitude_m_per_n);
-        if let (Some(still), Some(most)) =
-            (self.frequencies.first(), self.frequencies.iter().max_by(greatest))
-        {
+        if let (Some(still), Some(most)) = (self.frequencies.first(), self.peak()) {
             let at_rest = match millimetres(still.amplitude_m_per_n).as_str() {
                 NO_BOUND => "at rest nothing resists it".to_owned(),
                 at_rest => format!("at rest it moves it by {at_rest} mm/N"),

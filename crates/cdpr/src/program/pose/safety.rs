@@ -18,9 +18,10 @@ use crate::program::pose::safety::case::{Case, Greatest, Rest, factor};
 use crate::program::pose::safety::proof::Proof;
 use crate::program::pose::safety::weather::InWeather;
 use cdpr_assess::{
-    AnyWeather, Breaks, Broken, FactoredCase, PartialFactors, Safety, factored_cases, safety_at, winds,
+    AnyWeather, Breaks, Broken, FactoredCase, PartialFactors, Safety, assumed_ground, factored_cases,
+    safety_at, winds,
 };
-use cdpr_robot::{Pose, Robot, significant};
+use cdpr_robot::{Pose, Robot, short, significant};
 use cdpr_statics::{Load, StaticsError, WantedPose};
 use serde::Serialize;
 use std::borrow::Cow;
@@ -50,8 +51,7 @@ pub(crate) struct Settings {
 }
 
 pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, ProgramError> {
-    let with = with.clone().unwrap_or_default();
-    with.check(&[&["pairs", "swing", "wind"], &FACTORS[..], &WEATHER].concat())?;
+    let with = With::known(with.as_ref(), &[&["pairs", "swing", "wind"], &FACTORS[..], &WEATHER].concat())?;
     let (weather, factors) = (any_weather(&with)?, factors(&with)?);
     let load = at.load.load();
     let breaks = Breaks { pairs: with.has("pairs")?, follow: with.value("swing", None, above_zero)? };
@@ -90,6 +90,9 @@ struct Answer {
     greatest_tension: Greatest,
     safety_factor: Option<f64>,
     broken: Vec<Case>,
+    /// Height that is taken for the ground where the robot file has none, if the platform comes below it [m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    assumed_ground: Option<f64>,
     /// The pose with its free coordinates as they are found.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "as_numbers")]
     found_pose: Option<Pose>,
@@ -119,11 +122,16 @@ impl Answer {
         let blown = blown.transpose()?;
         let blown = blown.as_ref().map(|(weather, blown)| (*weather, blown));
         let cases = factored_cases(robot, &found, load, &factors.unwrap_or(PartialFactors::ONE), blown)?;
+        let ground = assumed_ground(robot, &found.pose);
         let Safety { lengths, tensions, exit_tensions, safety_factor, broken, .. } = found;
         let all = lengths.len();
         let case = |of: Broken| Case { falls: of.cables.len() == all, ..Case::from(of) };
         let ends = tensions.iter().zip(&exit_tensions).map(|(at, exit)| at.max(*exit));
         let greatest = (1..).zip(ends).max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((1, 0.0));
+        let broken: Vec<Case> = broken.into_iter().map(case).collect();
+        let in_weather = blown.map(|(weather, blown)| InWeather::new(robot, weather, blown, load));
+        let is_below = broken.iter().any(Case::is_below_ground)
+            || in_weather.as_ref().is_some_and(InWeather::is_below_ground);
         Ok(Self {
             lengths,
             tensions,
@@ -132,9 +140,10 @@ impl Answer {
             breaking_forces: robot.cables.iter().map(|cable| cable.properties.breaking_force).collect(),
             greatest_tension: Greatest { cable: greatest.0, tension: greatest.1 },
             safety_factor: safety_factor.map(|(factor, _)| factor),
-            broken: broken.into_iter().map(case).collect(),
+            broken,
+            assumed_ground: ground.filter(|_| is_below),
             found_pose: None,
-            in_weather: blown.map(|(weather, blown)| InWeather::new(robot, weather, blown)),
+            in_weather,
             proof: factors.map(|factors| Proof::new(factors, &cases)),
             cases,
         })
@@ -261,6 +270,12 @@ impl Answer {
             rows.add_row([numbers(&case.cables)].into_iter().chain(cells).chain([case.remark()]));
         }
         println!("{rows}");
+        if let Some(ground) = self.assumed_ground {
+            print_sentence(&format!(
+                "The robot file has no `ground_z`: the ground is assumed at z = {} m.",
+                short(ground)
+            ));
+        }
         print_sentence(&self.strength());
         print_sentence(if followed {
             "The winches stand still. Swings and peaks are those of the time followed, without damping; `>` marks \

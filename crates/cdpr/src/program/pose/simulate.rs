@@ -131,8 +131,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
 
 impl Settings {
     fn how(&self) -> Result<Timing, ProgramError> {
-        let with = self.with.clone().unwrap_or_default();
-        with.check(&["elements", "degree", "tolerance"])?;
+        let with = With::known(self.with.as_ref(), &["elements", "degree", "tolerance"])?;
         let elements = with.value("elements", None, arguments::count::<1, 1000>)?;
         let degree = with.value("degree", None, arguments::count::<1, 64>)?;
         let usual = Discretization::TAUT;

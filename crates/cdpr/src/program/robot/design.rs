@@ -7,7 +7,10 @@ use crate::program::arguments::{
 };
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, patiently, print_sentence, table};
-use crate::program::robot::design::words::{WITHIN, evaluations, noun, titled, tried, value};
+use crate::program::questions;
+use crate::program::robot::design::words::{
+    WITHIN, crossing, evaluations, noun, optimum, own, titled, tried, value,
+};
 use cdpr_assess::{
     ActiveDemand, BestDesign, BestOfTypes, ChosenCable, Design, DesignProblem, DesignedVariable, Front,
     FrontPoint, Goal, Over, design, front,
@@ -42,6 +45,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     settings.threads.start()?;
     let robot = settings.preference.open_robot(settings.robot.path())?;
     let problem = DesignProblem::open(&settings.design, robot.clone())?;
+    questions::about_design(&settings.design, problem.doubts());
     if problem.has_front() {
         let found = patiently("looking for the best robots", || front(&problem))?;
         return answer_front(settings, &robot, &found);
@@ -196,7 +200,11 @@ fn print(robot: &Robot, found: &Design, seconds: f64) {
     let basis = found.basis.map(str::to_owned);
     let first =
         [Some(verdict(robot, found, best)), basis, found.left_laws.clone(), Some(ends(found, best, seconds))];
-    for sentence in first.into_iter().chain([optimum(best), demands(found, best)]).flatten() {
+    for sentence in first
+        .into_iter()
+        .chain([optimum(found.output, best), demands(found, best), own(best), crossing(best)])
+        .flatten()
+    {
         print_sentence(&sentence);
     }
     let per_unit = format!("{} per unit", found.output.unit()).trim_start().to_owned();
@@ -329,32 +337,6 @@ fn ends(found: &Design, best: &BestDesign, seconds: f64) -> String {
         _ => format!("; {}", evaluations(found.evaluations)),
     };
     format!("{searches}{next}{work}.{before}")
-}
-
-/// Whether it is an optimum, by the residual of its conditions.
-fn optimum(best: &BestDesign) -> Option<String> {
-    let residual = best.kkt_residual?;
-    let known = best.gradient_error.filter(|error| error.is_finite());
-    let by_differences = known.map_or_else(String::new, |error| {
-        format!(", with derivatives by differences that are right to {}", significant(error, 1))
-    });
-    Some(match (best.optimal, best.gradient_error) {
-        _ if !residual.is_finite() => {
-            "It is where a start lies, and no optimum: no search leads on from there, because derivatives are not \
-             known at all poses. `choices` instead of `bounds` need none."
-                .to_owned()
-        }
-        (true, None) => "It is a local optimum: the KKT residual is below 1e-8.".to_owned(),
-        (true, Some(_)) => {
-            let precision = "the KKT residual is below 1e-6, with the error of derivatives by differences";
-            format!("It is a local optimum: {precision}.")
-        }
-        (false, _) => format!(
-            "The search ended before an optimum (KKT residual {}{by_differences}): derivatives jump there, where \
-             a tension meets a limit, or no step keeps all poses.",
-            significant(residual, 1)
-        ),
-    })
 }
 
 /// The demands that keep the objective from being better.

@@ -8,7 +8,7 @@ use crate::program::questions;
 use cdpr_report::{Explored, explored_study, explorer};
 use cdpr_robot::Robot;
 use cdpr_study::{InputKind, ROBOT_NAME, Results, Study, StudyError};
-use serde::Serialize;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 
 /// What is explored, and the file.
@@ -28,11 +28,6 @@ pub(crate) struct Settings {
     /// How the path of the page is printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-}
-
-#[derive(Serialize)]
-struct Written {
-    explorer: String,
 }
 
 /// A robot, its file, and the study of it that comes first.
@@ -60,8 +55,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
         open::that(&path)
             .map_err(|error| ProgramError::Browser { path: path.clone(), reason: error.to_string() })?;
     }
-    let written = Written { explorer: path.to_string_lossy().into_owned() };
-    Ok(format.print(&written, |written| println!("explorer in {}", written.explorer))?)
+    let path = path.to_string_lossy();
+    Ok(format.print(&json!({ "explorer": path }), |_| println!("explorer in {path}"))?)
 }
 
 fn read(path: &Path) -> Result<Input, ProgramError> {

@@ -9,7 +9,7 @@ use crate::program::questions;
 use cdpr_exchange::{ExchangeError, Exported, Target, correction_table, export};
 use cdpr_robot::{Axis, counted, shown};
 use cdpr_statics::StaticsError;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// A robot, a pose or a region, and a format.
 #[derive(clap::Args)]
@@ -57,39 +57,25 @@ enum Format {
 }
 
 impl Format {
-    /// Refuses the name of a file that says another format.
-    fn check(self, out: &Path) -> Result<(), ProgramError> {
-        let checked = match self {
-            Self::Mjcf => check_foreign(out, "a model of MuJoCo is XML", &["xml", "mjcf"]),
-            Self::Moorpy => check_foreign(out, "a system of MoorPy is text", &["txt", "dat"]),
-            Self::Moordyn => check_foreign(out, "a system of MoorDyn is text", &["txt", "dat"]),
-            Self::Klipper => check_foreign(out, "a configuration of Klipper is text", &["cfg"]),
-            Self::Rrf => check_foreign(out, "commands of RepRapFirmware are G-code", &["g", "gcode"]),
-            Self::Maslow => check_foreign(out, "a configuration of FluidNC is YAML", &["yaml", "yml"]),
-            Self::Table => check_foreign(out, "the table is CSV", &["csv", "txt"]),
-            Self::Caspr => check_foreign(out, "`_bodies.xml` and `_cables.xml` are put behind it", &[]),
-        };
-        checked.map_err(ProgramError::Usage)
-    }
-
-    /// The format of another program; `None` for a table.
-    fn target(self) -> Option<Target> {
-        Some(match self {
-            Self::Mjcf => Target::Mjcf,
-            Self::Caspr => Target::Caspr,
-            Self::Moorpy => Target::Moorpy,
-            Self::Moordyn => Target::Moordyn,
-            Self::Klipper => Target::Klipper,
-            Self::Rrf => Target::Rrf,
-            Self::Maslow => Target::Maslow,
-            Self::Table => return None,
-        })
+    /// The format of another program, `None` for a table; what its file is, and the endings of its name.
+    fn file(self) -> (Option<Target>, &'static str, &'static [&'static str]) {
+        match self {
+            Self::Mjcf => (Some(Target::Mjcf), "a model of MuJoCo is XML", &["xml", "mjcf"]),
+            Self::Caspr => (Some(Target::Caspr), "`_bodies.xml` and `_cables.xml` are put behind it", &[]),
+            Self::Moorpy => (Some(Target::Moorpy), "a system of MoorPy is text", &["txt", "dat"]),
+            Self::Moordyn => (Some(Target::Moordyn), "a system of MoorDyn is text", &["txt", "dat"]),
+            Self::Klipper => (Some(Target::Klipper), "a configuration of Klipper is text", &["cfg"]),
+            Self::Rrf => (Some(Target::Rrf), "commands of RepRapFirmware are G-code", &["g", "gcode"]),
+            Self::Maslow => (Some(Target::Maslow), "a configuration of FluidNC is YAML", &["yaml", "yml"]),
+            Self::Table => (None, "the table is CSV", &["csv", "txt"]),
+        }
     }
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    settings.to.check(&settings.out)?;
-    let Some(target) = settings.to.target() else { return table(settings) };
+    let (target, is, endings) = settings.to.file();
+    check_foreign(&settings.out, is, endings).map_err(ProgramError::Usage)?;
+    let Some(target) = target else { return table(settings) };
     if settings.region.is_some() {
         return Err(ProgramError::Usage(
             "--region: expected --to table, whose positions it names".to_owned(),

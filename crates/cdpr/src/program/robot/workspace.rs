@@ -161,8 +161,7 @@ impl Wanted {
             let expected = "expected a plane or a box, with two points or more along two axes or three";
             return usage(format!("--with boundary: {expected}"));
         }
-        let names = MapQuantity::ALL.iter().map(|of| of.name()).chain(["dominant_tolerance"]);
-        let names: Vec<&str> = names.collect();
+        let names = map_names();
         // Those of layers end in `_z00`, ....
         let is_of = |stem: &str, name: &str| {
             stem.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with("_z"))
@@ -176,6 +175,11 @@ impl Wanted {
             None => Ok(()),
         }
     }
+}
+
+/// Names of all maps that there may be.
+fn map_names() -> Vec<&'static str> {
+    [&MapQuantity::ALL.map(MapQuantity::name)[..], &["dominant_tolerance"]].concat()
 }
 
 /// Accuracy of the tilt in a map [degrees].
@@ -192,7 +196,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     wanted.check(settings, &grid)?;
     let out =
         settings.out.clone().unwrap_or_else(|| arguments::named_after(settings.robot.path(), "workspace"));
-    let folder = begin_workspace(&out, settings.overwrite.if_exists())?;
+    let folder = begin_workspace(&out, settings.overwrite.if_exists(), &map_names())?;
     let set = settings.set.set()?;
     questions::about_wrenches(&robot, set.wrenches());
     let workspace = Workspace {

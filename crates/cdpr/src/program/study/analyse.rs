@@ -53,8 +53,7 @@ pub(crate) struct Settings {
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     settings.threads.start()?;
-    let with = settings.with.clone().unwrap_or_default();
-    with.check(&["confidence", "hsic-rows"])?;
+    let with = With::known(settings.with.as_ref(), &["confidence", "hsic-rows"])?;
     let rows = count::<{ Analyser::LEAST_DEPENDENCE_ROWS }, { Analyser::MOST_DEPENDENCE_ROWS }>;
     let mut analyser = Analyser::new(settings.seed);
     analyser.level = with.value("confidence", None, number)?.unwrap_or(analyser.level);

@@ -7,7 +7,7 @@ use crate::program::output::patiently;
 use cdpr_assess::read_region;
 use cdpr_report::{figures, report_with};
 use cdpr_study::Results;
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::path::PathBuf;
 
 /// The folder and the file.
@@ -32,16 +32,6 @@ pub(crate) struct Settings {
     format: Format,
 }
 
-#[derive(Serialize)]
-struct Drawn {
-    figures: Vec<String>,
-}
-
-#[derive(Serialize)]
-struct Written {
-    report: String,
-}
-
 pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let Settings { folder, out, figure, overwrite, workspace, format } = settings;
     if !figure.is_empty() {
@@ -49,10 +39,9 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
         let drawn: Vec<_> =
             drawn.into_iter().filter_map(|figure| Some((figure.name, figure.svg.ok()?))).collect();
         write_figures(figure, &drawn, overwrite)?;
-        let figures = figure.iter().map(|figure| figure.path.to_string_lossy().into_owned()).collect();
-        let text =
-            |Drawn { figures }: &Drawn| figures.iter().for_each(|figure| println!("figure in {figure}"));
-        return Ok(format.print(&Drawn { figures }, text)?);
+        let figures: Vec<_> = figure.iter().map(|figure| figure.path.to_string_lossy()).collect();
+        let text = |_: &Value| figures.iter().for_each(|figure| println!("figure in {figure}"));
+        return Ok(format.print(&json!({ "figures": figures }), text)?);
     }
     let (results, page) = patiently("drawing the report", || -> Result<_, ProgramError> {
         let results = Results::read(folder)?;
@@ -67,6 +56,6 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
         }
         None => results.write_report(folder, &page)?,
     };
-    let text = |written: &Written| println!("report in {}", written.report);
-    Ok(format.print(&Written { report: path.to_string_lossy().into_owned() }, text)?)
+    let path = path.to_string_lossy();
+    Ok(format.print(&json!({ "report": path }), |_| println!("report in {path}"))?)
 }

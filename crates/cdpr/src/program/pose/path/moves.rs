@@ -142,7 +142,7 @@ pub(super) fn run(
     let finer = FEWEST.div_ceil(set_points.len());
     let fine = Move { rate: wanted.rate * finer as f64, ..planned.clone() };
     let between = if finer > 1 { fine.plan()? } else { set_points.clone() };
-    let mut answer = Answer::new(&planned, wanted.shaper.map(|_| &modes[..]), &between);
+    let mut answer = Answer::new(&planned, wanted.shaper.map(|_| &modes[..]), &between)?;
     if let Some(seconds) = wanted.residual {
         let simulated = plain.watched(seconds, wanted.damping)?;
         let unshaped = plain.plan()?;

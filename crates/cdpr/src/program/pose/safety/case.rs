@@ -82,10 +82,9 @@ pub(super) struct Greatest {
 impl From<BrokenRest> for Rest {
     fn from(rest: BrokenRest) -> Self {
         let (turns_over, (tension, cable)) = (rest.turns_over(), rest.greatest_tension());
-        let [_, _, _, qw, qx, qy, qz] = crate::program::arguments::poses::pose_numbers(&rest.pose);
         Self {
             position: rest.pose.position.into(),
-            rotation: [qw, qx, qy, qz],
+            rotation: rest.pose.quaternion(),
             moved: rest.moved,
             turned_deg: rest.turned.to_degrees(),
             tensions: rest.tensions.iter().map(|ends| ends[0]).collect(),
@@ -180,9 +179,15 @@ impl Case {
         let at_rest = rest.out_of_limits.iter().map(|one| (one, ""));
         let beyond = at_rest.chain(swinging.iter().map(|one| (one, " on the way")));
         let beyond = beyond.filter(|(one, _)| one.is_too_much());
-        let beyond = beyond.min_by_key(|(one, _)| one.limit != "breaking_force");
+        // What breaks counts more, then what is passed most.
+        let beyond = beyond.min_by(|(a, _), (b, _)| {
+            let kind = |of: &OutOfLimits| of.limit != "breaking_force";
+            kind(a).cmp(&kind(b)).then(b.excess().total_cmp(&a.excess()))
+        });
         let beyond = beyond.map(|(one, when)| match one.limit {
-            "breaking_force" => format!("cable {} breaks, too{when}", one.cable),
+            "breaking_force" => {
+                format!("cable {} breaks, too{}{when}", one.cable, if when.is_empty() { "" } else { "," })
+            }
             _ => format!("cable {} is above its greatest tension{when}", one.cable),
         });
         let below = self.is_below_ground();
@@ -236,7 +241,7 @@ impl Case {
         let swing = self.swinging().map(|swing| {
             let Greatest { cable, tension } = swing.greatest_tension;
             let moved = format!("{}{}", if swing.moves_away { "> " } else { "" }, short(swing.moved));
-            [moved, short(tension), cable.to_string(), factor(swing.safety_factor)]
+            [moved, short(tension), cable.to_string(), factor(self.safety_factor())]
         });
         rest.unwrap_or_default().into_iter().chain(swing.unwrap_or_default()).collect()
     }

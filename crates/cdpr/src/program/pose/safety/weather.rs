@@ -5,6 +5,7 @@ use crate::program::arguments::towards;
 use crate::program::pose::safety::case::Greatest;
 use cdpr_assess::{AnyWeather, DIRECTIONS, InWind, Winds};
 use cdpr_robot::{Robot, significant};
+use cdpr_statics::Load;
 use cdpr_statics::limits::Limit;
 use serde::Serialize;
 
@@ -27,6 +28,9 @@ pub(super) struct InWeather {
     speed: Option<f64>,
     #[serde(skip)]
     tilted: bool,
+    /// Whether there is wind, and no force that may be that on the platform.
+    #[serde(skip)]
+    on_cables_alone: bool,
     /// Winds that were looked at.
     directions: usize,
     /// The wind that moves the platform farthest; absent where there is no rest in any.
@@ -96,12 +100,11 @@ struct OneWind {
 
 impl OneWind {
     fn new(found: &InWind) -> Self {
-        let [_, _, _, qw, qx, qy, qz] = crate::program::arguments::poses::pose_numbers(&found.rest.pose);
         let (tension, cable) = found.greatest_tension();
         Self {
             azimuth_deg: found.azimuth.map(|azimuth| azimuth.to_degrees().rem_euclid(360.0)),
             position: found.rest.pose.position.into(),
-            rotation: [qw, qx, qy, qz],
+            rotation: found.rest.pose.quaternion(),
             displacement: found.displacement.into(),
             moved: found.moved(),
             turned_deg: found.turned.to_degrees(),
@@ -126,7 +129,7 @@ fn wrong(found: &InWind) -> Option<(Option<Limit>, f64, String)> {
 }
 
 impl InWeather {
-    pub(super) fn new(robot: &Robot, weather: &AnyWeather, found: &Winds) -> Self {
+    pub(super) fn new(robot: &Robot, weather: &AnyWeather, found: &Winds, load: &Load) -> Self {
         let mut failed = found.failures.iter();
         let not_found = failed
             .next()
@@ -144,6 +147,8 @@ impl InWeather {
         Self {
             speed: weather.speed,
             tilted: robot.gravity.level().is_some(),
+            on_cables_alone: (weather.speed.is_some() || !weather.weather.wind.is_calm())
+                && load.wrench.force.norm() == 0.0,
             directions: found.rests.len() + found.failures.len(),
             farthest: found.farthest().map(OneWind::new),
             tightest: found.tightest().map(OneWind::new),
@@ -164,6 +169,11 @@ impl InWeather {
             (None, None) => "held",
         };
         word.to_owned()
+    }
+
+    /// Whether the platform comes below the ground in a wind.
+    pub(super) fn is_below_ground(&self) -> bool {
+        self.wrong.is_some() && !self.is_overloaded
     }
 
     /// The least safety factor in any wind.
@@ -190,14 +200,13 @@ impl InWeather {
             (Some(what), _) => format!("{heading} does not bear {winds}: {what}."),
             (None, Some(what)) => format!("{heading} is not known to bear {winds}: {what}."),
         };
-        let towards = |one: &OneWind| {
-            one.azimuth_deg
-                .map_or_else(String::new, |azimuth| format!(" (wind towards {azimuth:.0} degrees)"))
+        let wind = |azimuth: Option<f64>| {
+            azimuth.map_or_else(String::new, |azimuth| format!(" (wind towards {azimuth:.0} degrees)"))
         };
         let farthest = self.farthest.as_ref().map(|one| {
             let [moved, x, y, z] = [one.moved, one.displacement[0], one.displacement[1], one.displacement[2]]
                 .map(|metres| significant(1e3 * metres, 4));
-            format!("The weather moves it up to {moved} mm, by ({x}, {y}, {z}) mm{}.", towards(one))
+            format!("The weather moves it up to {moved} mm, by ({x}, {y}, {z}) mm{}.", wind(one.azimuth_deg))
         });
         let is_tightest = |cable: usize, azimuth: Option<f64>| {
             self.tightest
@@ -211,13 +220,11 @@ impl InWeather {
         };
         let least_safe =
             self.least_safe.as_ref().filter(|of| !is_tightest(of.cable, of.azimuth_deg)).map(|of| {
-                let wind = of
-                    .azimuth_deg
-                    .map_or_else(String::new, |azimuth| format!(" (wind towards {azimuth:.0} degrees)"));
                 format!(
-                    "The least safety factor in it is {}, of cable {}{wind}.",
+                    "The least safety factor in it is {}, of cable {}{}.",
                     significant(of.factor, 3),
-                    of.cable
+                    of.cable,
+                    wind(of.azimuth_deg)
                 )
             });
         let tightest = self.tightest.as_ref().map(|one| {
@@ -225,7 +232,7 @@ impl InWeather {
             let tension = significant(tension, 4);
             format!(
                 "Tensions in the weather reach {tension} N, in cable {cable}{}{}.",
-                towards(one),
+                wind(one.azimuth_deg),
                 factor(cable)
             )
         });
@@ -236,7 +243,10 @@ impl InWeather {
                     .to_owned()
             });
         let below = self.below_least.as_ref().map(|what| format!("In the weather {what}."));
-        [Some(first), farthest, tightest, least_safe, frame, below].into_iter().flatten().collect()
+        let cables = self
+            .on_cables_alone
+            .then(|| "The wind is that on the cables. That on the platform is a load, --force.".to_owned());
+        [Some(first), cables, farthest, tightest, least_safe, frame, below].into_iter().flatten().collect()
     }
 
     pub(super) fn cells(&self) -> Vec<String> {

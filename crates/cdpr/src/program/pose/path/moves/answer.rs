@@ -6,14 +6,16 @@ use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence};
 use crate::program::pose::at_pose::numbered;
 use cdpr_assess::{Compared, ratio_of_best};
+use cdpr_dynamics::DynamicsError;
 use cdpr_dynamics::moves::{Excited, Move, Residual, SetPoint, Shaper};
-use cdpr_robot::{Robot, broken, counted, shown, significant};
+use cdpr_robot::{Robot, counted, shown, significant};
 use serde::Serialize;
 
 /// A move as a whole.
 #[derive(Serialize)]
 pub(super) struct Answer {
     seconds: f64,
+    /// Length of the curve along which P moves.
     way_m: f64,
     /// Time [s] and amplitude of each impulse of the shaper.
     impulses: Vec<[f64; 2]>,
@@ -98,11 +100,6 @@ pub(super) struct Robots {
     worst_unshaped_amplitude_m: f64,
 }
 
-/// Prints a sentence in lines of 80 columns.
-fn print_lines(text: &str) {
-    broken(text).iter().for_each(|line| println!("{line}"));
-}
-
 fn mm(metres: f64) -> String {
     significant(1e3 * metres, 3)
 }
@@ -138,7 +135,7 @@ impl After {
         } else {
             ", less than the error of the simulation,"
         };
-        print_lines(&format!(
+        print_sentence(&format!(
             "{name}: in {} s after the move P swings by up to {} mm{below}{ratio} of the {} mm without shaper and \
              feed-forward. \
              On the way it is up to {} mm off, without both {} mm. A coarser computation differs by up to {} mm.",
@@ -150,7 +147,7 @@ impl After {
             mm(self.difference_m)
         ));
         if self.is_worse() {
-            print_lines("The shaper makes it worse: take more seconds, fewer modes or none.");
+            print_sentence("The shaper makes it worse: take more seconds, fewer modes or none.");
         }
         for (slack, when) in [(&self.slack_cables, ""), (&self.unshaped_slack_cables, ", without both")] {
             if !slack.is_empty() {
@@ -195,7 +192,7 @@ impl Robots {
                 let worst =
                     worst.map_or_else(String::new, |worst| format!(", the worst one {} %", percent(worst)));
                 let left = percent(ratio);
-                print_lines(&format!(
+                print_sentence(&format!(
                     "{best} of {drawn} robots leave {left} % or less of what they leave without both{worst}. \
                      They swing by up to {} mm, without both by up to {} mm.",
                     mm(self.worst_amplitude_m),
@@ -208,7 +205,7 @@ impl Robots {
             println!("Robots of which a cable loses its tension: {slack}.");
         }
         if let Some(reason) = &self.reason {
-            print_lines(&format!(
+            print_sentence(&format!(
                 "{} could not be followed, the first one: {reason}",
                 counted(*failed, "robot")
             ));
@@ -219,9 +216,12 @@ impl Robots {
 impl Answer {
     /// With the motions of the shaper, if one is wanted; the set points may lie closer than those of the
     /// move, so that their tensions miss no peak.
-    pub(super) fn new(planned: &Move, modes: Option<&[Excited]>, set_points: &[SetPoint]) -> Self {
+    pub(super) fn new(
+        planned: &Move,
+        modes: Option<&[Excited]>,
+        set_points: &[SetPoint],
+    ) -> Result<Self, DynamicsError> {
         let cables = planned.robot.cables.len();
-        let ways = planned.poses.windows(2).map(|pair| (pair[1].position - pair[0].position).norm());
         let own = ["t_s", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"].map(str::to_owned);
         let of_cables = [("length", "m"), ("feed_forward", "m"), ("tension", "n"), ("exit_tension", "n")];
         let of_cables = of_cables.into_iter().flat_map(|(name, unit)| numbered(name, unit, cables));
@@ -242,9 +242,9 @@ impl Answer {
             damping_ratio: mode.damping_ratio,
             platform_share: mode.platform_share,
         };
-        Self {
+        Ok(Self {
             seconds: planned.seconds,
-            way_m: ways.sum(),
+            way_m: planned.way_length()?,
             impulses: planned.shaper.impulses.clone(),
             shaped: modes.unwrap_or_default().iter().map(shaped).collect(),
             is_unshaped: modes.is_some_and(<[Excited]>::is_empty),
@@ -256,7 +256,7 @@ impl Answer {
             residual: None,
             robots: None,
             columns: own.into_iter().chain(of_cables).collect(),
-        }
+        })
     }
 
     pub(super) fn ending(&self) -> Ending {
@@ -297,14 +297,14 @@ impl Answer {
                 .map(|(name, times)| if times > 1 { format!("{name} ({times} times)") } else { name });
             let of: Vec<_> = of.collect();
             let impulses = counted(self.impulses.len(), "impulse");
-            print_lines(&format!(
+            print_sentence(&format!(
                 "Shaper for {} Hz: {impulses} in {} s.",
                 of.join(" and "),
                 significant(*duration, 3)
             ));
         }
         if self.is_unshaped {
-            print_lines(&format!(
+            print_sentence(&format!(
                 "No shaper: of those that take less than {seconds} s none leaves less that swings."
             ));
         }
@@ -313,7 +313,7 @@ impl Answer {
         } else {
             format!("feed-forward up to {} mm", mm(self.feed_forward_m))
         };
-        print_lines(&format!(
+        print_sentence(&format!(
             "In motion tensions are {} N at the platform to {} N at the exits; {of}.",
             significant(self.least_tension_n, 3),
             significant(self.greatest_exit_tension_n, 4)
