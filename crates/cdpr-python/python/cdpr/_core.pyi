@@ -3608,10 +3608,11 @@ def analyse(
     level: float,
     seed: int,
     dependence_rows: int,
+    all_outputs: int,
 ) -> str:
-    """Analyses rows of inputs, (n, k), and their outputs, (n,): the analysis as JSON. An input of words has its
+    """Analyses rows of inputs, (n, k), and an output of them, (n,), one of `all_outputs`: the analysis as JSON.
 
-    labels, and their numbers as values.
+    An input of words has its labels, and their numbers as values.
     """
 def check(robot: Robot) -> str:
     """What is odd about a robot and yet no error, as JSON."""

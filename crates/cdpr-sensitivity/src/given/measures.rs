@@ -254,6 +254,7 @@ impl<'a> Work<'a> {
             coordinate: &self.coordinate,
             dependence,
             rows: self.rows(),
+            outputs: self.analyser.outputs.max(1),
         };
         let mut verdict = table.verdict();
         let first = self.first(&mut Notes(Vec::new()));

@@ -160,7 +160,8 @@ pub fn analyse_table(table: &GivenTable, request: &TableRequest) -> Result<Table
             data = data.with_levels(place, table.columns[input].labels.clone()).map_err(statistics)?;
         }
         let limit = request.limits.iter().find(|(name, _)| *name == column).map(|(_, limit)| *limit);
-        let analysis = Analyser { limit, ..request.analyser }.analyse(&data).map_err(statistics)?;
+        let analyser = Analyser { limit, outputs: outputs.len(), ..request.analyser };
+        let analysis = analyser.analyse(&data).map_err(statistics)?;
         Ok((column.clone(), analysis))
     };
     let chosen_names: HashSet<&str> =
