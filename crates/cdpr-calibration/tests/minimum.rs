@@ -147,8 +147,8 @@ fn exact_lengths_of_stiff_cables_lead_to_the_minimum_or_to_a_doubt() {
     assert!(found.p_value().unwrap() > 1e-3 || !found.converged(), "{}", found.chi_square);
 }
 
-/// Campaigns 28 and 32 of data/reference/campaigns.py with weightless cables over pulleys, of which tolerances
-/// make some slack, and the least chi-squares that are known.
+/// Campaigns 28 and 32 of data/reference/campaigns.py with weightless cables over pulleys, of which
+/// tolerances make some slack, and the least chi-squares that are known.
 const SLACK: [(&str, f64); 2] = [
     (include_str!("../../../data/reference/pulleys-slack/campaign-28.csv"), 139.3425),
     (include_str!("../../../data/reference/pulleys-slack/campaign-32.csv"), 149.6101),

@@ -27,7 +27,8 @@ fn rare_events_make_no_input_certain_by_chance() {
     assert_eq!(found.certain.iter().map(|of| of.input.as_str()).collect::<Vec<_>>(), ["x3"], "{found:?}");
 }
 
-/// 5 of 50 rows have a switch on, and 5 an event: 3 of them together have P = 0.0048, of any of 40 switches 18 %.
+/// 5 of 50 rows have a switch on, and 5 an event: 3 of them together have P = 0.0048, of any of 40 switches
+/// 18 %.
 #[test]
 fn switches_and_events_have_the_law_of_fisher() {
     let five = |source: &mut Source| {

@@ -7,9 +7,9 @@
 //! p*_k = max over j <= k of (m - j + 1) p_j                                          (Ve1)
 //! ```
 //!
-//! and an input matters where one of its p* is below 5 %. Whatever the tests have in common, the probability of
-//! one or more false findings in a table is 5 % at most: S. Holm, *A simple sequentially rejective multiple test
-//! procedure*, Scand. J. Stat. 6 (1979).
+//! and an input matters where one of its p* is below 5 %. Whatever the tests have in common, the probability
+//! of one or more false findings in a table is 5 % at most: S. Holm, *A simple sequentially rejective
+//! multiple test procedure*, Scand. J. Stat. 6 (1979).
 //!
 //! The tests hold for rows that are independent of each other, and what they find is the effect of an input
 //! where inputs are independent. An input is therefore *certain* to matter only if

@@ -139,8 +139,8 @@ impl Chosen {
 ///
 /// # Errors
 /// [`StudyError::Invalid`] for a name that no column has, an output of words, an input that is an output, no
-/// input or no output; [`StudyError::Statistics`] with the column for outputs that are constant or too few, and
-/// with those of a vector that has no index, such as one at rows of a sequence.
+/// input or no output; [`StudyError::Statistics`] with the column for outputs that are constant or too few,
+/// and with those of a vector that has no index, such as one at rows of a sequence.
 pub fn analyse_table(table: &GivenTable, request: &TableRequest) -> Result<TableAnalysis, StudyError> {
     let chosen = Chosen::of(table, request)?;
     let Chosen { inputs, outputs, components, .. } = &chosen;

@@ -51,8 +51,8 @@ const FALSE_DOUBTS: f64 = 0.03;
 /// How many times more clearly a coordinate must be found (Dp1).
 const CLEARER: f64 = 1e3;
 
-/// How many times a share must be that of a pattern (Dp2), or evidence that of a dependence (Dp3): several may
-/// add up.
+/// How many times a share must be that of a pattern (Dp2), or evidence that of a dependence (Dp3): several
+/// may add up.
 const GREATER: f64 = 10.0;
 
 /// Parts of a coordinate that says something of the output: rows of each, and their largest number.
