@@ -41,8 +41,8 @@ fn every_kind_of_error_has_an_entry_with_cause_and_remedy() {
     }
 }
 
-/// Whether a word of code in a page is a path of this repository, in full or from `crates`. A name in capitals
-/// is one to fill in.
+/// Whether a word of code in a page is a path of this repository, in full or from `crates`. A name in
+/// capitals is one to fill in.
 fn is_path(word: &str) -> bool {
     let folders = ["crates/", "data/", "docs/", "peers/", "xtask/"];
     let of_crate = word.starts_with("cdpr-") && (word.contains("/src") || word.contains("/tests"));

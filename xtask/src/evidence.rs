@@ -1,5 +1,5 @@
-//! `cargo xtask evidence`: runs the cases of `data/evidence/cases.json`, keeps their figures in `data/evidence`
-//! and writes the tables of the book.
+//! `cargo xtask evidence`: runs the cases of `data/evidence/cases.json`, keeps their figures in
+//! `data/evidence` and writes the tables of the book.
 //!
 //! In a page, `<!-- evidence CABLE -->` stands above the table of the cases `V-CABLE-...`, and
 //! `<!-- figure V-CABLE-001 -->` before a figure in a sentence; `<!-- end -->` follows either.
@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 /// Pages with tables or figures of cases.
 const PAGES: [&str; 2] = ["docs/trust.md", "README.md"];
 
-/// By what factor a figure may differ from the one that is kept: sums are in another order with another vector
-/// unit, and errors near rounding follow.
+/// By what factor a figure may differ from the one that is kept: sums are in another order with another
+/// vector unit, and errors near rounding follow.
 const CHANGED: f64 = 5.0;
 /// Figures below this share of their bound may differ by more.
 const FAR_BELOW: f64 = 1e-3;

@@ -30,7 +30,8 @@ enum Task {
     ///
     /// The published figures are in data/reference/published.json. All measures of the study's sensitivity go
     /// to DIR/sensitivity, the hysteresis of its cables to DIR/cable, the robot with pulleys and the cable
-    /// behind them to DIR/led, all places of its pulleys to DIR/reconfiguration.txt. It begins again unless it resumes.
+    /// behind them to DIR/led, all places of its pulleys to DIR/reconfiguration.txt. It begins again unless
+    /// it resumes.
     CarocaStudy(Study),
     /// Count how often the direct model finds CoGiRo's true pose from a wrong start
     ///
@@ -41,8 +42,8 @@ enum Task {
     ///
     /// [OBSERVATIONS [THREADS]]: 1000000 observations on all threads.
     Throughput {
-        /// The robots and poses of data/benchmarks/throughput.json, on one thread: writes throughput.md next to it;
-        /// with a part of a name those robots, without writing
+        /// The robots and poses of data/benchmarks/throughput.json, on one thread: writes throughput.md next
+        /// to it; with a part of a name those robots, without writing
         #[arg(long)]
         all: bool,
         #[command(flatten)]

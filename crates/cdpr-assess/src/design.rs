@@ -96,7 +96,8 @@ pub struct BestDesign {
     /// The type of cable of each group, where types are chosen.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cables: Vec<ChosenCable>,
-    /// The best robot with each choice of types, in the order of the file; none where these are more than 1000.
+    /// The best robot with each choice of types, in the order of the file; none where these are more than
+    /// 1000.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cable_types: Vec<BestOfTypes>,
     /// Searches that led to these values.

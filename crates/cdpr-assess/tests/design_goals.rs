@@ -307,8 +307,8 @@ fn wrong_tensions_lengths_and_costs_are_refused_with_field_value_and_what_is_rig
     );
 }
 
-/// Of the page `how-to/blank-frame`: with the thickest cable the search ends next to robots that no tensions hold,
-/// where steps of differences twice as long have no values. The robot that it had found was lost.
+/// Of the page `how-to/blank-frame`: with the thickest cable the search ends next to robots that no tensions
+/// hold, where steps of differences twice as long have no values. The robot that it had found was lost.
 #[test]
 fn a_search_that_ends_next_to_robots_that_are_not_held_keeps_its_robot() {
     let page = |name: &str| {

@@ -1,5 +1,5 @@
-//! Where the platform comes to rest when cables break: against the model of the robot that lacks them, and against
-//! a motion with damping.
+//! Where the platform comes to rest when cables break: against the model of the robot that lacks them, and
+//! against a motion with damping.
 
 use cdpr_assess::{AnyWeather, Breaks, safety_at, winds};
 use cdpr_dynamics::simulate::{Change, CutAt, Event, Settings, simulate};
@@ -56,7 +56,8 @@ fn every_rest_is_a_stable_equilibrium_of_the_robot_without_the_cable() {
 
 #[test]
 fn the_potential_falls_from_the_pose_to_each_rest() {
-    // The path of a strongly damped platform leads downhill: the rest of the whole robot, released, is its pose.
+    // The path of a strongly damped platform leads downhill: the rest of the whole robot, released, is its
+    // pose.
     for (robot, pose) in robots() {
         let found = safety_at(&robot, WantedPose::at(&pose), &Load::none(), Breaks::default()).unwrap();
         let problem = DirectProblem::new(&robot, &found.lengths, &Load::none()).unwrap();
@@ -140,7 +141,8 @@ fn without_inertia_the_rest_is_there_and_the_swing_has_its_reason() {
     }
 }
 
-/// Turned about the vertical, the winds of a grid blow from elsewhere upon the robot: the searches find the same.
+/// Turned about the vertical, the winds of a grid blow from elsewhere upon the robot: the searches find the
+/// same.
 #[test]
 fn the_worst_winds_do_not_depend_on_how_the_base_is_turned() {
     let worst = |degrees: f64| {

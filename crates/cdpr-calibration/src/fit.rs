@@ -61,7 +61,8 @@ pub fn fit(
         fit(robot, rows, &kept, settings)
     };
     if settings.only_identifiable {
-        let gone = problem.unidentifiable_inputs(&start.shared, &problem.settled(start.clone())?.1);
+        let (settled, _) = problem.settled(start.clone())?;
+        let gone = problem.unidentifiable_inputs(&start.shared, &problem.measured_at(&settled)?);
         if !gone.is_empty() {
             return without(&gone);
         }
@@ -69,7 +70,7 @@ pub fn fit(
     let (best, starts) = problem.best_of_starts(start)?;
     if settings.only_identifiable {
         // At the minimum the data may tell less than where the search began.
-        let gone = problem.unidentifiable_inputs(&best.state.shared, &best.at);
+        let gone = problem.unidentifiable_inputs(&best.state.shared, &problem.measured_at(&best.state)?);
         if !gone.is_empty() {
             return without(&gone);
         }
@@ -117,7 +118,9 @@ impl Problem<'_> {
             if let Some(found) = found.filter(|found| found.leads_to() < best.at.cost) {
                 let lower = !is_same(best.at.cost, found.leads_to());
                 if lower || best.distance > found.distance {
-                    let again = self.search(found.state, NEAR, most)?;
+                    let before = found.steps;
+                    let mut again = self.search(found.state, NEAR, most)?;
+                    again.steps += before;
                     if again.at.cost < best.at.cost || again.distance < best.distance {
                         best = again;
                     }

@@ -14,6 +14,7 @@
 
 pub(crate) mod compare;
 pub(crate) mod held;
+pub(crate) mod kink;
 pub(crate) mod read;
 pub(crate) mod row;
 mod tilt;

@@ -42,8 +42,8 @@ fn cell(row: &Row, cable: usize, length: f64, expected: String) -> CalibrationEr
     CalibrationError::Cell { line: row.line, column, value: length.to_string(), expected }
 }
 
-/// Compares the lengths with the distances of the points at the measured poses, which `pose` says. Sag, pulleys and the errors
-/// that are sought change these by far less than swapped columns.
+/// Compares the lengths with the distances of the points at the measured poses, which `pose` says. Sag,
+/// pulleys and the errors that are sought change these by far less than swapped columns.
 ///
 /// # Errors
 /// [`CalibrationError::Column`] naming two columns that fit far better the other way round, one that does

@@ -101,8 +101,8 @@ impl Unknowns {
         Ok(unknowns)
     }
 
-    /// The parameters that are sought if nothing is said: anchor and exit points, mass and modulus; of a point
-    /// mass no anchor points.
+    /// The parameters that are sought if nothing is said: anchor and exit points, mass and modulus; of a
+    /// point mass no anchor points.
     pub fn usual(robot: &Robot) -> Self {
         let names: &[&str] = if robot.platform.point { &["b"] } else { &["a", "b"] };
         // Every robot has these.

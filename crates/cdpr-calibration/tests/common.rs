@@ -48,6 +48,12 @@ impl Case {
         ErrorModel::normal(&self.robot, &self.stds)
     }
 
+    /// The same with another region.
+    pub(crate) fn within(&self, half: Vector3<f64>) -> Self {
+        let (robot, stds, free) = (self.robot.clone(), self.stds.clone(), self.free.clone());
+        Self { half, robot, stds, free, ..*self }
+    }
+
     /// A campaign without load and without errors of sensors.
     pub(crate) fn simulated<'a>(
         &'a self,

@@ -1,7 +1,7 @@
 //! A tracker that is not in the base frame: its standard deviations, and what is said where it is not sought.
 
 use crate::common::{EXTERNAL, cases};
-use cdpr_calibration::{FitSettings, Quantity, Row, SensorError, Unknowns, drawn, fit, simulate};
+use cdpr_calibration::{FitSettings, Quantity, Reading, Row, SensorError, Unknowns, drawn, fit, simulate};
 use cdpr_robot::{Axis, Rotation3, UnitQuaternion, Vector3};
 
 /// The rows as a tracker elsewhere reads them.
@@ -85,4 +85,35 @@ fn measurements_in_another_frame_are_refused_with_a_hint() {
         let error = fit(&case.robot, &rows, &unknowns, &FitSettings::default()).unwrap_err().to_string();
         assert!(error.contains("seek the place of the tracker, `frame`"), "{}: {error}", case.name);
     }
+}
+
+/// Of positions in a plane a mirror and a rotation by 180 degrees are the same. With the platform turned the
+/// lengths alone do not show which coordinate it is.
+#[test]
+fn a_coordinate_with_the_other_sign_is_named_and_not_called_a_rotation() {
+    let mut by_positions = 0;
+    for case in cases().iter().filter(|case| case.name != "GRAB") {
+        for (height, offset, turn) in [(0.0, 0.0, 1.2), (1.0, 0.03, 1.2), (0.0, 0.0, 0.0)] {
+            let case = &case.within(Vector3::new(case.half.x, case.half.y, height * case.half.z));
+            let rows =
+                simulate(&case.simulated(&drawn(&case.model(), 1), &case.poses(20), EXTERNAL, 1)).unwrap();
+            for axis in Axis::ALL {
+                let mut rows = rows.clone();
+                for row in &mut rows {
+                    let is_mirrored = |of: &&mut Reading| of.quantity == Quantity::Position(axis);
+                    row.readings.iter_mut().filter(is_mirrored).for_each(|of| of.value = offset - of.value);
+                    let turn = Rotation3::from_euler_angles(0.0, 0.0, turn);
+                    row.rotation = row.rotation.map(|rotation| rotation * turn);
+                }
+                let unknowns = Unknowns::of_model(&case.model());
+                let found = fit(&case.robot, &rows, &unknowns, &FitSettings::default());
+                let error = found.unwrap_err().to_string();
+                let name = Quantity::Position(axis).to_string();
+                println!("{} {height} {turn} {axis:?}: {error}", case.name);
+                by_positions += usize::from(error.contains("with the lengths"));
+                assert!(error.contains("other sign") && error.contains(&name), "{}: {error}", case.name);
+            }
+        }
+    }
+    assert!(by_positions >= 4, "{by_positions}");
 }

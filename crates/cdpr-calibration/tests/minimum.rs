@@ -1,11 +1,11 @@
 //! Whether a search ends at the minimum, and says so only then: the stiff cables of a router, slack cables
-//! without weight.
+//! without weight, elastic laws with kinks.
 
 use cdpr_calibration::{
-    Fit, FitSettings, FitStatus, Measurements, Noise, Quantity, Row, Simulated, Unknowns, fit,
-    read_measurements, simulate,
+    Fit, FitSettings, FitStatus, Measurements, Noise, Quantity, Row, SensorError, Simulated, Unknowns, drawn,
+    fit, read_measurements, simulate,
 };
-use cdpr_robot::{Axis, CableEnd, Parameter, Pose, Robot};
+use cdpr_robot::{Axis, CableEnd, Parameter, Pose, Robot, Vector3};
 use cdpr_statics::Load;
 use cdpr_study::ErrorModel;
 
@@ -147,8 +147,8 @@ fn exact_lengths_of_stiff_cables_lead_to_the_minimum_or_to_a_doubt() {
     assert!(found.p_value().unwrap() > 1e-3 || !found.converged(), "{}", found.chi_square);
 }
 
-/// Campaigns 28 and 32 of data/reference/campaigns.py with weightless cables over pulleys, of which tolerances
-/// make some slack, and the least chi-squares that are known.
+/// Campaigns 28 and 32 of data/reference/campaigns.py with weightless cables over pulleys, of which
+/// tolerances make some slack, and the least chi-squares that are known.
 const SLACK: [(&str, f64); 2] = [
     (include_str!("../../../data/reference/pulleys-slack/campaign-28.csv"), 139.3425),
     (include_str!("../../../data/reference/pulleys-slack/campaign-32.csv"), 149.6101),
@@ -175,5 +175,106 @@ fn cables_between_taut_and_slack_do_not_keep_a_search_from_the_minimum() {
         println!("{} after {} steps, {:?}", found.chi_square, found.steps, found.starts);
         assert!(found.chi_square < least + 1e-3, "{} {least}", found.chi_square);
         assert_eq!(found.status, FitStatus::Converged, "{}", found.distance);
+    }
+}
+
+/// A planar robot of steel ropes on pulleys: below 600 N their modulus is 60 GPa, above 95 GPa.
+const PLOTTER: &str = r#"{
+  "format": "cdpr-robot/1", "name": "Wall plotter of steel", "gravity": 9.81, "plane": "xz",
+  "platform": {
+    "mass": 15, "center_of_mass": [0.01, 0, -0.02],
+    "inertia": [[0.12, 0, 0], [0, 0.3, 0], [0, 0, 0.35]]
+  },
+  "cable": {
+    "diameter": 0.004, "section": 6.6e-6, "linear_density": 0.061, "youngs_modulus": 9e10,
+    "law": { "segments": [{ "tension": 0, "modulus": 6e10 }, { "tension": 600, "modulus": 9.5e10 }] }
+  },
+  "pulley": { "radius": 0.04, "axis": [0, 0, 1] },
+  "tension_limits": { "min": 80, "max": 3000 }, "tension_reference": 500,
+  "cables": [
+    { "exit_point": [0, 0, 0.1], "anchor_point": [-0.2, 0, -0.1], "lead": 0.8 },
+    { "exit_point": [4, 0, 0], "anchor_point": [0.2, 0, -0.1], "lead": 0.7 },
+    { "exit_point": [4.1, 0, 3], "anchor_point": [0.2, 0, 0.1], "lead": 1.2 },
+    { "exit_point": [-0.1, 0, 3.1], "anchor_point": [-0.2, 0, 0.1], "lead": 1.1 }
+  ]
+}"#;
+
+/// Positions and rotations of a campaign: at some of them a tension is near 600 N.
+const POSES: [[f64; 3]; 20] = [
+    [2.2627, 2.1355, 0.0577],
+    [1.2630, 1.1803, 0.0782],
+    [0.7132, 2.0140, 0.0622],
+    [1.8698, 1.1849, -0.0464],
+    [1.3372, 1.4121, 0.0010],
+    [2.0837, 2.2928, 0.0613],
+    [2.2554, 2.2823, -0.0596],
+    [1.1005, 1.6801, -0.0955],
+    [0.7892, 1.5238, -0.0071],
+    [2.9929, 1.7068, 0.0030],
+    [1.9422, 1.0960, -0.1022],
+    [1.1810, 1.8073, -0.0627],
+    [1.6238, 0.7060, 0.0691],
+    [1.0862, 1.1282, 0.0797],
+    [1.9745, 2.0554, 0.0293],
+    [2.5544, 0.8464, 0.0086],
+    [1.9694, 2.0941, -0.0291],
+    [2.1955, 0.7948, -0.0235],
+    [1.5076, 0.9403, 0.0663],
+    [1.6486, 2.2660, 0.0188],
+];
+
+fn calibrated_plotter(robot: &Robot, seed: u64) -> Fit {
+    let std = |parameter: &Parameter| match parameter.group() {
+        "a" => 2e-3,
+        "b" => 3e-3,
+        _ => 0.0,
+    };
+    let model = ErrorModel::normal(robot, &Parameter::of(robot).iter().map(std).collect::<Vec<_>>());
+    let at = |&[x, z, turn]: &[f64; 3]| {
+        Pose::at(0.0, 0.0, 0.0).moved(Vector3::new(x, 0.0, z), Vector3::new(0.0, turn, 0.0))
+    };
+    let poses: Vec<Pose> = POSES.iter().map(at).collect();
+    let noise = Noise { position: Some(1e-4), rotation: Some(2e-4), length: Some(2e-4), ..Noise::default() };
+    let simulated = Simulated {
+        nominal: robot,
+        deviations: &drawn(&model, seed),
+        poses: &poses,
+        free: &[],
+        load: Load::none(),
+        noise,
+        markers: &[],
+        errors: &[],
+        tension_at: CableEnd::Anchor,
+        seed,
+    };
+    let rows = simulate(&simulated).unwrap();
+    let mut unknowns = Unknowns::of_model(&model);
+    unknowns.add(robot, SensorError::Frame, Some(0.02), 0);
+    fit(robot, &rows, &unknowns, &FitSettings { starts: 1, ..FitSettings::default() }).unwrap()
+}
+
+/// By their weight cables have the kink over a range of tensions; without it, and on their leads, at one.
+#[test]
+fn tensions_at_a_kink_of_the_law_do_not_keep_a_search_from_the_minimum() {
+    let heavy = Robot::from_json(PLOTTER).unwrap();
+    let mut light = heavy.clone();
+    light.cables.iter_mut().for_each(|cable| cable.properties.linear_density = 0.0);
+    let mut sharp = light.clone();
+    sharp.cables.iter_mut().for_each(|cable| (cable.pulley, cable.lead) = (None, 0.0));
+    for (name, robot) in [("heavy", heavy), ("light", light), ("sharp", sharp)] {
+        let (mut farthest, mut away): (f64, usize) = (0.0, 0);
+        for seed in 0..16 {
+            let found = calibrated_plotter(&robot, seed);
+            println!(
+                "{name} {seed}: {:.1e} after {} steps, {}",
+                found.distance, found.steps, found.chi_square
+            );
+            farthest = farthest.max(found.distance);
+            assert!(found.p_value().unwrap() > 1e-3, "{name}, {seed}: {}", found.chi_square);
+            assert!(found.steps <= 60, "{name}, {seed}: {} steps", found.steps);
+            away += usize::from(found.status != FitStatus::OneStart);
+        }
+        println!("{name}: {farthest:.1e} standard deviations from the minimum");
+        assert_eq!(away, 0, "{name}: {farthest:.1e} standard deviations from the minimum");
     }
 }

@@ -159,7 +159,8 @@ fn a_platform_that_is_measured_out_of_its_plane_is_a_warning() {
     }
 }
 
-/// The errors of x and y by the geometry of the straight cables, `K⁻¹` of another program: 0.8896 and 0.7348 mm.
+/// The errors of x and y by the geometry of the straight cables, `K⁻¹` of another program: 0.8896 and 0.7348
+/// mm.
 #[test]
 fn the_coordinates_of_a_planar_robot_are_those_of_its_plane() {
     let robot = table();

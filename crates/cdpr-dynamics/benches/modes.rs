@@ -1,5 +1,5 @@
-//! Natural motions with the mass of the cables: at one pose, with and without the counts; and a fifth of a second
-//! of motion.
+//! Natural motions with the mass of the cables: at one pose, with and without the counts; and a fifth of a
+//! second of motion.
 
 use cdpr_dynamics::moves::{FeedForward, Move, Shaper, ShaperKind};
 use cdpr_dynamics::simulate::{Change, CutAt, Event, Profile, Settings, simulate};

@@ -47,8 +47,8 @@ pub(crate) fn lobatto(degree: usize) -> Vec<[f64; 2]> {
     (0..=degree).map(point).collect()
 }
 
-/// Derivative by x of the polynomial through the values at Lobatto's points: row j holds, for the point j, the
-/// share of each value.
+/// Derivative by x of the polynomial through the values at Lobatto's points: row j holds, for the point j,
+/// the share of each value.
 pub(crate) fn lobatto_slopes(degree: usize) -> Vec<Vec<f64>> {
     let points = lobatto(degree);
     let value = |k: usize| legendre(degree, points[k][0])[0];

@@ -1,4 +1,5 @@
-//! Motions over time against two programs that share no code with this one (`data/reference/transients.json`).
+//! Motions over time against two programs that share no code with this one
+//! (`data/reference/transients.json`).
 
 use crate::reference::{matrix, number, numbers, vector};
 use cdpr_dynamics::simulate::{Series, Settings, events_from_json, simulate};
@@ -60,8 +61,8 @@ fn case<'a>(file: &'a Value, name: &str) -> &'a Value {
     file["cases"].as_array().unwrap().iter().find(|case| case["name"] == name).unwrap()
 }
 
-/// Greatest error of the position [m] and of the rotation [rad]; then of a tension [N] once the first waves have
-/// passed.
+/// Greatest error of the position [m] and of the rotation [rad]; then of a tension [N] once the first waves
+/// have passed.
 fn errors(series: &Series, case: &Value) -> [f64; 3] {
     let mut errors = [0.0_f64; 3];
     for (found, expected) in series.samples.iter().zip(case["samples"].as_array().unwrap()) {

@@ -1,8 +1,9 @@
 //! The evidence: what the program is compared with, how well the two agree, and what is accepted.
 //!
-//! Each comparison is a *case* of `data/evidence/cases.json`. A test makes the comparison and hands its figure
-//! to [`accept`], which fails where the figure is not accepted. With the variable [`FOLDER`] set, it also writes
-//! the figure to a file there: `cargo xtask evidence` makes the tables of `docs/trust.md` of these files.
+//! Each comparison is a *case* of `data/evidence/cases.json`. A test makes the comparison and hands its
+//! figure to [`accept`], which fails where the figure is not accepted. With the variable [`FOLDER`] set, it
+//! also writes the figure to a file there: `cargo xtask evidence` makes the tables of `docs/trust.md` of
+//! these files.
 
 #![allow(clippy::panic, clippy::print_stdout)]
 
@@ -74,8 +75,8 @@ pub struct Case {
     pub unit: String,
     /// What is accepted.
     pub accepted: Acceptance,
-    /// Whether the figure is a result in all its digits, such as a difference from an experiment; other figures
-    /// are errors near rounding, of which the order counts.
+    /// Whether the figure is a result in all its digits, such as a difference from an experiment; other
+    /// figures are errors near rounding, of which the order counts.
     #[serde(default)]
     pub digits: bool,
     /// The test that makes the comparison: a crate and the name of the test.

@@ -338,8 +338,8 @@ fn robot_cable(cable: DraftCable, limits: TensionLimits, options: &ImportOptions
     // What a cable of a catalogue does not say.
     properties.diameter = properties.diameter.or(diameter);
     properties.breaking_force = properties.breaking_force.or(breaking_force);
-    // The stiffness is the file's; section and density are the cable's that is given. A cable of the file has it
-    // in its modulus.
+    // The stiffness is the file's; section and density are the cable's that is given. A cable of the file has
+    // it in its modulus.
     if let Some(stiffness) = cable.stiffness.filter(|_| !of_file) {
         properties.youngs_modulus = stiffness / properties.section;
     }

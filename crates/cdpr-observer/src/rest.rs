@@ -266,8 +266,8 @@ impl Rest {
         self.robot.cables[0].properties.youngs_modulus / self.moduli[0]
     }
 
-    /// The wrench about P, in the base frame, that these tensions hold besides the platform's weight; zero along
-    /// motions that the platform does not have.
+    /// The wrench about P, in the base frame, that these tensions hold besides the platform's weight; zero
+    /// along motions that the platform does not have.
     pub(crate) fn residual_wrench(&self, tensions: impl Iterator<Item = f64>) -> Wrench {
         let held: Vector6<f64> =
             self.cables.iter().zip(tensions).map(|(cable, t)| cable.wrench(t * cable.direction)).sum();

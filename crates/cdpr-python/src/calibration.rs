@@ -137,7 +137,7 @@ pub(crate) fn calibrate_pulleys(
     to_json(&found??)
 }
 
-/// What measurements at poses tell of uncertain parameters, as JSON.
+/// What measurements at poses determine of uncertain parameters, as JSON.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn identify(

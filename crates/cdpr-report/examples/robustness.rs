@@ -3,9 +3,9 @@
 //! [--free NAMES] [--seed N] [--out DIR] [--overwrite]`.
 //!
 //! By the protocol of Mahnke and Caverly (N poses of CoGiRo with the modulus E [Pa], starts up to 1 m and
-//! 40 degrees away) and on thirty poses with the file's modulus. In the room of another robot distances change
-//! with the room's size. It writes `solves.csv`, `refused.csv` (poses drawn that the robot does not hold),
-//! `robustness.json` and two figures. Everything but the times follows from the seed.
+//! 40 degrees away) and on thirty poses with the file's modulus. In the room of another robot distances
+//! change with the room's size. It writes `solves.csv`, `refused.csv` (poses drawn that the robot does not
+//! hold), `robustness.json` and two figures. Everything but the times follows from the seed.
 //!
 //! The example is here and not in `cdpr-assess`, which measures, because it draws the figures, too.
 

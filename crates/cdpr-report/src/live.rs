@@ -66,9 +66,9 @@ fn packed(id: &str, file: &[u8]) -> Markup {
     html! { script type="text/plain" id=(id) { (PreEscaped(base85(file))) } }
 }
 
-/// Bytes as text, five characters for four bytes, the most significant first; the last one to three bytes have
-/// one character more than bytes. The digits from 0 to 84 are the characters from `(` to `|`, with `!` for `<`,
-/// so that nothing in the text can end an element. It is 6 % shorter than base 64.
+/// Bytes as text, five characters for four bytes, the most significant first; the last one to three bytes
+/// have one character more than bytes. The digits from 0 to 84 are the characters from `(` to `|`, with `!`
+/// for `<`, so that nothing in the text can end an element. It is 6 % shorter than base 64.
 fn base85(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len() / 4 * 5 + 5);
     for four in bytes.chunks(4) {

@@ -1,9 +1,9 @@
 //! The report: one HTML file with the study, its results and all figures, which needs no other file.
 //!
-//! Static figures are the SVG files of this crate, byte for byte. The script of the explorer, which is packed,
-//! draws the robot in space from data that the page holds as JSON, and lets the reader move it. maud escapes
-//! everything that comes from files. A content security policy allows the scripts of the page by their hashes,
-//! and forbids every connection.
+//! Static figures are the SVG files of this crate, byte for byte. The script of the explorer, which is
+//! packed, draws the robot in space from data that the page holds as JSON, and lets the reader move it. maud
+//! escapes everything that comes from files. A content security policy allows the scripts of the page by
+//! their hashes, and forbids every connection.
 
 mod analysis;
 mod calibration;

@@ -40,8 +40,8 @@ struct RobotFile {
     /// Values that the source does not give and that were chosen, a sentence each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     assumed: Vec<String>,
-    /// Acceleration due to gravity [m/s²]: a number, along -z of the base frame, or a vector in it, [x, y, z],
-    /// for a base that is not level.
+    /// Acceleration due to gravity [m/s²]: a number, along -z of the base frame, or a vector in it, [x, y,
+    /// z], for a base that is not level.
     gravity: Gravity,
     /// The moving platform.
     platform: PlatformEntry,
@@ -50,8 +50,8 @@ struct RobotFile {
     /// space.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     plane: Option<Plane>,
-    /// Height of the ground in the base frame [m]: no cable and no anchor point may be below it where the inverse
-    /// model finds free coordinates. Without this field only the lengths of the cables are bounded.
+    /// Height of the ground in the base frame [m]: no cable and no anchor point may be below it where the
+    /// inverse model finds free coordinates. Without this field only the lengths of the cables are bounded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     ground_z: Option<f64>,
     /// Properties of every cable that has none of its own.
@@ -71,8 +71,8 @@ struct RobotFile {
     /// norm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     tension_reference: Option<TensionReference>,
-    /// Which tensions the inverse model chooses: "nearest" to `tension_reference`, as without this field, or those
-    /// of "least_1_norm", "least_2_norm" or "least_infinity_norm", without `tension_reference`.
+    /// Which tensions the inverse model chooses: "nearest" to `tension_reference`, as without this field, or
+    /// those of "least_1_norm", "least_2_norm" or "least_infinity_norm", without `tension_reference`.
     #[serde(default, skip_serializing_if = "TensionDistribution::is_nearest")]
     distribution: TensionDistribution,
     /// The cables, one at least. With fewer than the platform has free motions, six in space and three for a
@@ -168,7 +168,7 @@ struct CableEntry {
     /// Length between winch and exit point of this cable [m], if it differs from the common one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     lead: Option<f64>,
-    /// Limits of this cable's tension in place of the robot's, each on its own.
+    /// Limits of this cable's tension instead of the robot's, each on its own.
     #[serde(default, skip_serializing_if = "OwnLimits::is_empty")]
     tension_limits: OwnLimits,
 }

@@ -41,8 +41,8 @@ enum Given {
 }
 
 impl Gravity {
-    /// Standard acceleration of free fall [m/s²] (3rd General Conference on Weights and Measures, 1901), where no
-    /// robot gives another one.
+    /// Standard acceleration of free fall [m/s²] (3rd General Conference on Weights and Measures, 1901),
+    /// where no robot gives another one.
     pub const STANDARD: f64 = 9.80665;
 
     /// Magnitude [m/s²].

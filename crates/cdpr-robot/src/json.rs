@@ -143,8 +143,8 @@ fn number_around<'a>(before: &'a str, behind: &'a str) -> Option<(&'a str, &'a s
     (start < before.len() && !decimals.is_empty() && !is_fraction).then(|| (&before[signed..], decimals))
 }
 
-/// The first number with a decimal comma in a list that has commas between its values, too: those have a blank
-/// behind them. Where all commas look alike, none is blamed.
+/// The first number with a decimal comma in a list that has commas between its values, too: those have a
+/// blank behind them. Where all commas look alike, none is blamed.
 fn decimal_comma_in(list: &str) -> Option<(&str, &str)> {
     let mut commas = list.match_indices(',').map(|(at, _)| (&list[..at], &list[at + 1..]));
     let is_between = |(_, behind): &(&str, &str)| behind.starts_with(char::is_whitespace);

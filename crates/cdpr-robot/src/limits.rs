@@ -32,7 +32,7 @@ impl CableEnd {
     }
 }
 
-/// Limits of one cable in place of the robot's, each on its own.
+/// Limits of one cable instead of the robot's, each on its own.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OwnLimits {
@@ -58,7 +58,8 @@ impl OwnLimits {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TensionDistribution {
-    /// The nearest to the reference tensions, by the sum of squares; without a reference those of least 2-norm.
+    /// The nearest to the reference tensions, by the sum of squares; without a reference those of least
+    /// 2-norm.
     #[default]
     Nearest,
     /// The least sum of tensions.
@@ -90,8 +91,8 @@ impl TensionDistribution {
         *self == Self::Nearest
     }
 
-    /// Whether tensions change smoothly with the pose where no limit becomes active: the other norms jump from
-    /// corner to corner of what the limits leave.
+    /// Whether tensions change smoothly with the pose where no limit becomes active: the other norms jump
+    /// from corner to corner of what the limits leave.
     pub fn is_smooth(self) -> bool {
         matches!(self, Self::Nearest | Self::LeastTwoNorm)
     }

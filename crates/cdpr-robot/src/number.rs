@@ -15,8 +15,8 @@ pub fn decimal(number: f64, decimals: usize) -> String {
     }
 }
 
-/// The text of a number with this many significant digits, such as `1.206`; below 1e-4 and from 1e7 on with an
-/// exponent.
+/// The text of a number with this many significant digits, such as `1.206`; below 1e-4 and from 1e7 on with
+/// an exponent.
 pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".to_owned() } else { value.to_string() };

@@ -59,8 +59,8 @@ impl Pose {
 
     /// The angle of the rotation from this pose to another [rad], from 0 to π.
     ///
-    /// It is that of a quaternion: of equal rotations and of half turns, the cosine from the trace of a matrix
-    /// may exceed 1 by rounding.
+    /// It is that of a quaternion: of equal rotations and of half turns, the cosine from the trace of a
+    /// matrix may exceed 1 by rounding.
     pub fn angle_to(&self, other: &Self) -> f64 {
         let [from, to] = [self, other].map(|pose| UnitQuaternion::from_rotation_matrix(&pose.rotation));
         from.angle_to(&to)

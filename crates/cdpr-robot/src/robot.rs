@@ -35,8 +35,8 @@ pub struct Robot {
     pub platform: Platform,
     /// The plane of the base frame in which the platform of a planar robot moves; `None` in space.
     pub plane: Option<Plane>,
-    /// Height of the ground in the base frame [m], below which no cable and no anchor point may be; `None` where
-    /// it is not known.
+    /// Height of the ground in the base frame [m], below which no cable and no anchor point may be; `None`
+    /// where it is not known.
     pub ground_z: Option<f64>,
     /// Limits of the tension of every cable that has none of its own; [`Robot::limits`] has both.
     pub tension_limits: TensionLimits,
@@ -202,8 +202,8 @@ impl Robot {
         Freedoms::new(self.platform.point, self.plane)
     }
 
-    /// The axis at right angles to the plane of a planar robot, and the coordinate of P along it at which exit
-    /// and anchor points are at one height in the mean [m].
+    /// The axis at right angles to the plane of a planar robot, and the coordinate of P along it at which
+    /// exit and anchor points are at one height in the mean [m].
     pub fn plane_offset(&self) -> Option<(usize, f64)> {
         let normal = self.plane?.normal();
         let apart = self.cables.iter().map(|cable| cable.exit_point[normal] - cable.anchor_point[normal]);
@@ -294,7 +294,8 @@ impl Robot {
     }
 
     /// Height of P [m] from which on no anchor point of a platform without rotation is below the ground
-    /// ([`Robot::ground_z`]) or, under exit points that are all above it, below z = 0; -∞ where neither is known.
+    /// ([`Robot::ground_z`]) or, under exit points that are all above it, below z = 0; -∞ where neither is
+    /// known.
     pub fn floor(&self) -> f64 {
         let anchors = self.cables.iter().map(|cable| cable.anchor_point.z);
         let (lowest, exits) =

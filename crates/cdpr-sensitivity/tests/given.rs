@@ -55,8 +55,8 @@ fn intervals_by_ranks_hold_the_index_as_often_as_their_level() {
 /// A model of normal inputs, and the first-order index of each.
 type OfNormals = (fn(&[f64]) -> f64, [f64; 2]);
 
-/// Share of the intervals that hold the indices, of those that leave anything out, in percent, and the share of
-/// these.
+/// Share of the intervals that hold the indices, of those that leave anything out, in percent, and the share
+/// of these.
 fn held((model, exact): OfNormals, rows: usize, tables: u64) -> [f64; 2] {
     let (mut held, mut said) = (0, 0);
     for seed in 0..tables {

@@ -223,7 +223,8 @@ pub enum StaticsError {
     NotCertified {
         /// Why.
         reason: &'static str,
-        /// Size of the image of the last box, relative to the box; `None` where the reason leaves no box to try.
+        /// Size of the image of the last box, relative to the box; `None` where the reason leaves no box to
+        /// try.
         growth: Option<f64>,
     },
     /// A derivative that does not exist.
@@ -341,7 +342,8 @@ impl StaticsError {
         self
     }
 
-    /// With the cables of an error of the direct model renumbered, as where it is about some cables of a robot.
+    /// With the cables of an error of the direct model renumbered, as where it is about some cables of a
+    /// robot.
     #[must_use]
     pub fn with_cables(mut self, of: impl Fn(usize) -> usize) -> Self {
         if let Self::Cable { index, .. } | Self::Overstrained { index, .. } = &mut self {

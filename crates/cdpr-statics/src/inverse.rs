@@ -170,8 +170,8 @@ impl<R: Borrow<Robot>> InversePath<R> {
     /// # Errors
     /// Those of [`crate::inverse`], and [`StaticsError::Invalid`] for free coordinates, which a path does not
     /// take, and for a distribution that jumps from pose to pose; [`StaticsError::TensionChange`] where no
-    /// tensions as near to the last ones as [`InversePath::limit_change`] demands hold the pose. The path then
-    /// goes on from the last pose that has a solution.
+    /// tensions as near to the last ones as [`InversePath::limit_change`] demands hold the pose. The path
+    /// then goes on from the last pose that has a solution.
     pub fn solve<'w>(
         &mut self,
         wanted: impl Into<WantedPose<'w>>,

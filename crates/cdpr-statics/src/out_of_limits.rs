@@ -96,8 +96,8 @@ impl OutOfLimits {
     }
 }
 
-/// The tensions that the models choose for cable `i`: within its limits, and at most the breaking force where its
-/// greatest tension is limited.
+/// The tensions that the models choose for cable `i`: within its limits, and at most the breaking force where
+/// its greatest tension is limited.
 pub fn allowed(robot: &Robot, i: usize) -> TensionLimits {
     let TensionLimits { min, max } = robot.limits(i);
     let breaking = robot.cables[i].properties.breaking_force.unwrap_or(f64::INFINITY);

@@ -43,8 +43,8 @@ fn random(seed: u64) -> Option<(Robot, Vec<f64>, Pose)> {
     (lengths.iter().all(|length| *length > 0.05 * size)).then_some((robot, lengths, start))
 }
 
-/// How near the inverse model comes to a rest from as many of its coordinates as it has cables, and the others;
-/// `None` where these lengths move the given coordinates hardly or not at all.
+/// How near the inverse model comes to a rest from as many of its coordinates as it has cables, and the
+/// others; `None` where these lengths move the given coordinates hardly or not at all.
 fn found_again(robot: &Robot, lengths: &[f64], found: &DirectSolution) -> Option<(f64, Vec<Coordinate>)> {
     let (freedoms, pose) = (robot.freedoms(), &found.equilibrium.pose);
     let m = freedoms.count();

@@ -129,8 +129,8 @@ fn payloads_and_margins_are_found_wherever_the_platform_is_held() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// Breaking forces act at both ends, and in these robots the exit points are the higher ones: limits at the exit
-/// say the same.
+/// Breaking forces act at both ends, and in these robots the exit points are the higher ones: limits at the
+/// exit say the same.
 #[test]
 fn breaking_forces_limit_payloads_and_margins() {
     for (name, [x, y, z]) in PLACES {

@@ -58,8 +58,8 @@ fn a_stiffer_way_back_leaves_the_platform_below_and_dissipates_the_loops_of_its_
     accept("V-HYSTERESIS-001", (cycle.payload_work / loops - 1.0).abs());
 }
 
-/// CAROCA hung up, over leads and pulleys whose axes may be tilted: the tension in them is that at the top, and
-/// a whole length begins at the winch.
+/// CAROCA hung up, over leads and pulleys whose axes may be tilted: the tension in them is that at the top,
+/// and a whole length begins at the winch.
 #[test]
 fn over_leads_and_pulleys_the_payload_gives_what_the_loops_of_the_cables_dissipate() {
     let law = curves(&[(0.0, 0.8), (600.0, 0.9)], &[(0.0, 1.1)]);
@@ -86,8 +86,8 @@ fn over_leads_and_pulleys_the_payload_gives_what_the_loops_of_the_cables_dissipa
     residual(6.0, Some(Vector3::new(0.1, -0.05, 1.0).normalize()));
 }
 
-/// `data/reference/robots/suspended-leads.json`: 75 kg on eight cables with leads of 12 m. The residual is that
-/// of every part of a cable turning back at its own tension, to second order in how the tension varies.
+/// `data/reference/robots/suspended-leads.json`: 75 kg on eight cables with leads of 12 m. The residual is
+/// that of every part of a cable turning back at its own tension, to second order in how the tension varies.
 #[test]
 fn a_suspended_robot_with_long_leads_keeps_its_energy() {
     let file = include_str!("../../../data/reference/robots/suspended-leads.json");

@@ -1,5 +1,5 @@
-//! Cables over pulleys with tilted axes in lanes: invariances, and the answers of the scalar models, which search
-//! for the force of such a cable in another way.
+//! Cables over pulleys with tilted axes in lanes: invariances, and the answers of the scalar models, which
+//! search for the force of such a cable in another way.
 
 use crate::common::{caroca, ipanema, observed, robots};
 use crate::observer::{compared, rows_by_size};

@@ -91,8 +91,8 @@ impl Case<'_> {
         Ok(fastest(&|| self.observer.observe::<ObservationSlopes>(&deviations).len()) / values)
     }
 
-    /// Root mean square errors of all indices, from values, values with gradients, and as many values as these
-    /// cost; share of the studies in which gradients took part [%].
+    /// Root mean square errors of all indices, from values, values with gradients, and as many values as
+    /// these cost; share of the studies in which gradients took part [%].
     fn errors(&self, exact: &[f64], points: usize, studies: u64) -> Result<[f64; 4], SensitivityError> {
         let mut sums = [0.0; 4];
         for seed in 0..studies {

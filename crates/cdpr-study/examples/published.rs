@@ -1,8 +1,8 @@
 //! Published figures compared with the results of a study.
 //!
 //! `cargo run -p cdpr-study --example published -- FIGURES RESULTS` reads a file of published figures
-//! (`cdpr-published/1`, such as `data/reference/published.json`) and a folder of results, and prints a row for
-//! each figure of a part that the study has. `cargo xtask caroca-study` runs it.
+//! (`cdpr-published/1`, such as `data/reference/published.json`) and a folder of results, and prints a row
+//! for each figure of a part that the study has. `cargo xtask caroca-study` runs it.
 //!
 //! The rule: a number is *reproduced* if it is within half of the published figure's last digit plus 1 % of
 //! it; a word is reproduced if it is the same. A law is compared by its name only where the observations

@@ -147,7 +147,8 @@ fn with_upper(
 }
 
 /// Whether some exit is farther than its anchor point in each direction of the horizontal plane, and some
-/// exit is above: a cable pulls towards its exit there, and its weight down, so that all others hold no platform.
+/// exit is above: a cable pulls towards its exit there, and its weight down, so that all others hold no
+/// platform.
 fn can_balance(sampling: &Sampling, sets: [Place; 2]) -> bool {
     let robot = sampling.robot;
     let is_there = |axis: Axis, sign: f64| {

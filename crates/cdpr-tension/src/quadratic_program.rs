@@ -68,8 +68,8 @@ mod tests {
         let found = nearest([1.0, 0.0, 0.0, 1.0], [-2.0, -1.0]);
         assert!((found.values[0] - 1.0).abs() < 1e-8 && found.values[1].abs() < 1e-8, "{found:?}");
         assert!((found.multipliers[0] - 1.0).abs() < 1e-8, "{found:?}");
-        // ½(2x² + 2xy + 2y²) - 4x - 3y on the line y = 1 - x is x² - 2x - 2, least at x = 1, where the gradient is
-        // (-2, -2).
+        // ½(2x² + 2xy + 2y²) - 4x - 3y on the line y = 1 - x is x² - 2x - 2, least at x = 1, where the
+        // gradient is (-2, -2).
         let found = nearest([2.0, 1.0, 1.0, 2.0], [-4.0, -3.0]);
         assert!((found.values[0] - 1.0).abs() < 1e-8 && found.values[1].abs() < 1e-8, "{found:?}");
         assert!((found.multipliers[0] - 2.0).abs() < 1e-8, "{found:?}");

@@ -1,5 +1,5 @@
-//! Elasto-statics and motion of cable-driven parallel robots with sagging, elastic cables: all libraries of the
-//! project under one name.
+//! Elasto-statics and motion of cable-driven parallel robots with sagging, elastic cables: all libraries of
+//! the project under one name.
 //!
 //! | module | what it is for |
 //! |---|---|
@@ -14,8 +14,8 @@
 //! | [`observer`] | payload, centre of mass and modulus from measured tensions, sample by sample |
 //! | [`exchange`] | robots of CASPR, WireX and others; MoorDyn |
 //!
-//! The program `cdpr` is the module [`program`], behind the feature of this name. Leave it out for the libraries alone:
-//! `cdpr = { version = "0.1", default-features = false }`.
+//! The program `cdpr` is the module [`program`], behind the feature of this name. Leave it out for the
+//! libraries alone: `cdpr = { version = "0.1", default-features = false }`.
 //!
 //! ```
 //! use cdpr::robot::Robot;

@@ -80,9 +80,10 @@ enum Command {
     Modes(pose::modes::Settings),
     /// Follow the motion of platform and cables after events.
     ///
-    /// From rest, at a pose or for lengths: a payload that is dropped, a cable that parts, a force, a platform
-    /// that is released, a winch that takes cable in. Cables have their mass, their sag and their elasticity,
-    /// and may go slack. The series of samples goes to --out, a CSV file, or is printed with --format csv.
+    /// From rest, at a pose or for lengths: a payload that is dropped, a cable that parts, a force, a
+    /// platform that is released, a winch that takes cable in. Cables have their mass, their sag and their
+    /// elasticity, and may go slack. The series of samples goes to --out, a CSV file, or is printed with
+    /// --format csv.
     #[command(after_help = "Example: cdpr simulate cogiro --pose 0,0,2 --payload 50 \
                       --events data/events/payload-dropped.json --until 2 --damping 2e-4 --out series.csv")]
     Simulate(Box<pose::simulate::Settings>),
@@ -107,9 +108,9 @@ enum Command {
     Capacity(pose::capacity::Settings),
     /// Find what becomes of the platform when a cable breaks.
     ///
-    /// Each cable alone, while the winches stand still: where the platform comes to rest, how far it moves and
-    /// turns, and whether the other cables bear that. The exit code is 3 where one does not, where the platform
-    /// comes below the ground, and where no rest is found.
+    /// Each cable alone, while the winches stand still: where the platform comes to rest, how far it moves
+    /// and turns, and whether the other cables bear that. The exit code is 3 where one does not, where the
+    /// platform comes below the ground, and where no rest is found.
     #[command(after_help = "Examples:
   cdpr safety cogiro --pose 0,0,2 --payload 100
   cdpr safety cogiro --pose 0,0,2 --with pairs
@@ -150,9 +151,10 @@ enum Command {
     Workspace(robot::workspace::Settings),
     /// Find where the exits, the anchors or a mass are best.
     ///
-    /// For poses and a load: what may change, within bounds or in steps, and what is to be as good as possible, are
-    /// in a file (JSON, `cdpr-design/1`). The search has exact derivatives and several starts; of steps every
-    /// combination is evaluated. The exit code is 3 where no robot was found that holds all poses.
+    /// For poses and a load: what may change, within bounds or in steps, and what is to be as good as
+    /// possible, are in a file (JSON, `cdpr-design/1`). The search has exact derivatives and several starts;
+    /// of steps every combination is evaluated. The exit code is 3 where no robot was found that holds all
+    /// poses.
     #[command(after_help = "Examples:
   cdpr design caroca data/designs/caroca-pulleys.json
   cdpr design cogiro data/designs/cogiro-exits.json --out better.json")]
@@ -216,9 +218,9 @@ fn command() -> clap::Command {
     help::grouped(Arguments::command())
 }
 
-/// Runs the program with these arguments, the first of which is its name, and returns its exit code: 0, 1 for an
-/// error, 2 for wrong arguments, 3 for an answer with a reservation. It prints, handles signals and bounds its
-/// threads: call it once in a process, as its whole work.
+/// Runs the program with these arguments, the first of which is its name, and returns its exit code: 0, 1 for
+/// an error, 2 for wrong arguments, 3 for an answer with a reservation. It prints, handles signals and bounds
+/// its threads: call it once in a process, as its whole work.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let typed: Vec<OsString> = arguments.into_iter().collect();
     let parsed = command()

@@ -54,7 +54,8 @@ fn tables_of_designs_and_of_words_have_their_shares_and_contrasts() {
         assert!((shares["closed"].as_f64().unwrap() - exact).abs() < 1e-5, "{shares}");
         assert!((shares["total"].as_f64().unwrap() - exact).abs() < 1e-5, "{shares}");
     }
-    // Of 9 different rows the tests, which look at one input at a time, find A; the shares have the 11 % of B.
+    // Of 9 different rows the tests, which look at one input at a time, find A; the shares have the 11 % of
+    // B.
     let certain = found["outputs"]["y"]["verdict"]["certain"].as_array().unwrap();
     assert_eq!(certain.iter().map(|of| &of["input"]).collect::<Vec<_>>(), [&json!("A")]);
 

@@ -60,8 +60,8 @@ fn a_file_of_poses_is_read_line_by_line() {
 
 #[test]
 fn the_position_is_the_whole_pose_of_a_point_mass() {
-    // A mass m below a cable: with a length l it hangs lower by g l/EA for each kg. With s its standard deviation
-    // of 1 kg over the noise, 1/sqrt(1 + s^2) of this deviation is left.
+    // A mass m below a cable: with a length l it hangs lower by g l/EA for each kg. With s its standard
+    // deviation of 1 kg over the noise, 1/sqrt(1 + s^2) of this deviation is left.
     let folder = TempDir::new().unwrap();
     let robot = point_mass(&folder, &[[0.0, 0.0, 5.0]], true);
     let identify = |noise: &str| {
@@ -118,7 +118,8 @@ fn bad_input_is_named_with_what_would_be_right() {
     }
 }
 
-/// The tensions are those of another program, `data/reference/friction.py`, for friction 0.05 and bearing 0.02.
+/// The tensions are those of another program, `data/reference/friction.py`, for friction 0.05 and bearing
+/// 0.02.
 #[test]
 fn a_load_cycle_identifies_the_sum_of_the_coefficients_of_friction() {
     let table = data_path("calibration/expo2015-lucia-load-cycle.csv");
@@ -201,8 +202,8 @@ fn a_block_of_two_pulleys_is_one_cause() {
     let names = combinations.iter().flat_map(|part| part["weights"].as_array().unwrap());
     let names: Vec<&str> = names.map(|pair| pair[0].as_str().unwrap()).collect();
     assert!(names.contains(&"block") && !names.contains(&"b1.z"), "{names:?}");
-    // Level poses do not separate the block from a1.z and a2.z: a third of its variance is left, of two exit points
-    // that do not depend on each other it would be half.
+    // Level poses do not separate the block from a1.z and a2.z: a third of its variance is left, of two exit
+    // points that do not depend on each other it would be half.
     let left = |name: &str| found["remaining"][name].as_f64().unwrap();
     assert!((left("b1.z") - (1.0f64 / 3.0).sqrt()).abs() < 0.01, "{found}");
     assert!((left("b1.z") - left("b2.z")).abs() < 1e-12, "{found}");

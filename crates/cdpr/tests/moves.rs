@@ -126,7 +126,8 @@ fn a_shaper_that_is_left_out_is_named() {
     );
 }
 
-/// A shaper makes the profile faster, and cables slack, of which the linear motions that it is for know nothing.
+/// A shaper makes the profile faster, and cables slack, of which the linear motions that it is for know
+/// nothing.
 #[test]
 fn a_shaper_that_makes_cables_slack_and_the_swing_worse_is_said_to() {
     let folder = TempDir::new().unwrap();

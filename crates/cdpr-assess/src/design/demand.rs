@@ -1,8 +1,8 @@
 //! The demands on a robot: their order among the excesses of an evaluation.
 //!
 //! Of each pose come the limits of its outputs, then that of the exit tension of each cable, then, under a
-//! load, the greatest tension of each cable; after all poses the limits of cost and length, then the bounds of
-//! a second objective.
+//! load, the greatest tension of each cable; after all poses the limits of cost and length, then the bounds
+//! of a second objective.
 
 use crate::design::goal::Goal;
 use crate::design::problem::DesignProblem;

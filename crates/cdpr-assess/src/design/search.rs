@@ -219,8 +219,8 @@ impl Search<'_> {
         })
     }
 
-    /// Greatest change of ∇L if differences have steps twice as long. Where no robot is held so far away, four
-    /// times that by steps half as long, which has the same size for an error of second order.
+    /// Greatest change of ∇L if differences have steps twice as long. Where no robot is held so far away,
+    /// four times that by steps half as long, which has the same size for an error of second order.
     fn gradient_error(&mut self, here: &Point, step: &Step) -> f64 {
         let gradient = here.gradient(step);
         let change = |again: &Point| {

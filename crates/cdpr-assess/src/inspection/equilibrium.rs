@@ -43,8 +43,8 @@ pub fn doubtful_rest(
 }
 
 /// The position of P where P or an anchor point of a platform that was at `start`, if that is known, is below
-/// the ground, or, where the robot has none, below what robots stand on; and a sentence of how deep its lowest
-/// point is.
+/// the ground, or, where the robot has none, below what robots stand on; and a sentence of how deep its
+/// lowest point is.
 pub fn below_floor(robot: &Robot, start: Option<&Pose>, pose: &Pose) -> Option<(String, String)> {
     let (floor, name) = floor(robot, start)?;
     let lowest = lowest(robot, pose);

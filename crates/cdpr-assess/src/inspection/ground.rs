@@ -5,7 +5,8 @@ use cdpr_robot::Robot;
 use cdpr_robot::plausible::FRAME;
 
 impl Findings<'_> {
-    /// A ground above the exit points, one without room for the platform, one far below; exit points in a pit.
+    /// A ground above the exit points, one without room for the platform, one far below; exit points in a
+    /// pit.
     pub(super) fn ground(&mut self) {
         let Robot { cables, ground_z: Some(ground), .. } = self.robot else { return };
         let remedy = "the height of the ground in the base frame, in m, below exit and anchor points";
@@ -38,7 +39,8 @@ mod tests {
     use crate::inspection::{Severity, inspect};
     use cdpr_robot::Robot;
 
-    /// Severity and field of what is found about the ground at a height [m], with the first exit point at `exit`.
+    /// Severity and field of what is found about the ground at a height [m], with the first exit point at
+    /// `exit`.
     fn found(ground: f64, exit: f64) -> Vec<(Severity, String)> {
         let mut robot = Robot::from_library("cogiro").unwrap();
         robot.cables[0].exit_point.z = exit;

@@ -8,8 +8,8 @@ const EXIT: f64 = 0.05;
 /// Distance of an anchor point from its image over the largest distance of two of them.
 const ANCHOR: f64 = 0.1;
 
-/// Half a turn and a quarter of a turn about the vertical, and mirrors in two vertical planes: what they do to
-/// x and y, as the rows of a matrix.
+/// Half a turn and a quarter of a turn about the vertical, and mirrors in two vertical planes: what they do
+/// to x and y, as the rows of a matrix.
 const IMAGES: [[[f64; 2]; 2]; 4] = [
     [[-1.0, 0.0], [0.0, -1.0]],
     [[0.0, -1.0], [1.0, 0.0]],

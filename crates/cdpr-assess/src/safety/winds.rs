@@ -21,8 +21,8 @@ pub const DIRECTIONS: usize = 24;
 /// Steps of a golden-section search: the interval shrinks to a fiftieth, 0.6 degrees.
 const STEPS: usize = 8;
 
-/// What a peak may lie below the greatest one, over the range of all: that of a cosine is up to 0.9 % of half its
-/// range above the nearest of [`DIRECTIONS`].
+/// What a peak may lie below the greatest one, over the range of all: that of a cosine is up to 0.9 % of half
+/// its range above the nearest of [`DIRECTIONS`].
 const NEARLY: f64 = 0.03;
 
 /// Weather with a wind of one velocity, or of one speed from any direction.
@@ -71,8 +71,8 @@ impl InWind {
         each.fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
     }
 
-    /// The most serious limit that a tension passes at the end where it is limited, and of such ones that which
-    /// is passed most.
+    /// The most serious limit that a tension passes at the end where it is limited, and of such ones that
+    /// which is passed most.
     pub fn gravest(&self) -> Option<&OutOfLimits> {
         let passed = self.out_of_limits.iter().filter(|one| one.limit != Limit::MaxElsewhere);
         passed.min_by(|a, b| a.limit.cmp(&b.limit).then(b.excess().total_cmp(&a.excess())))

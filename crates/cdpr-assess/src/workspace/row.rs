@@ -94,8 +94,8 @@ pub struct WorkspaceRow {
     pub weather_greatest_tension: Option<f64>,
     /// What is wrong in the weather, in words: a wind without a rest, tensions out of limits.
     pub weather_reason: Option<String>,
-    /// Greatest utilization of a cable by the factors that are given, or greatest tension over breaking force:
-    /// with all cables, each of them broken alone, and in the weather.
+    /// Greatest utilization of a cable by the factors that are given, or greatest tension over breaking
+    /// force: with all cables, each of them broken alone, and in the weather.
     pub utilization: Option<f64>,
     /// The number of this cable, from 1.
     pub utilization_cable: Option<usize>,
@@ -218,7 +218,8 @@ impl WorkspaceRow {
 /// One figure of a capacity.
 type FigureOf = fn(&Capacity) -> &Result<Figure, StaticsError>;
 
-/// What blocks a payload, in words, or why no payload is found. At a pose that is not held, `reason` says why.
+/// What blocks a payload, in words, or why no payload is found. At a pose that is not held, `reason` says
+/// why.
 fn blocked_by(pose: &WorkspacePose, of: FigureOf) -> Option<String> {
     match of(pose.capacity.as_deref()?) {
         Ok(figure) if figure.value == f64::NEG_INFINITY => {

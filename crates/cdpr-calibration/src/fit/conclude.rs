@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 impl Problem<'_> {
     pub(super) fn conclude(
         &self,
-        Found { state, at, steps, distance }: Found,
+        Found { state, steps, distance, .. }: Found,
         (before, poses_before): Seen,
         starts: [usize; 2],
     ) -> Result<Fit, CalibrationError> {
@@ -22,6 +22,7 @@ impl Problem<'_> {
         let robot = self.model.deviating(&state.shared.x)?;
         let compared = self.compared(&state, &robot)?;
         let after = self.differences(&compared);
+        let at = self.measured_at(&state)?;
         let [whole, data] =
             [Priors::All, Priors::None].map(|which| self.decomposed(&at, &state.shared, which));
         let count = unknowns.all.len();
@@ -79,7 +80,7 @@ impl Problem<'_> {
             length_offsets: None,
         };
         if fit.p_value().is_some_and(|p| p < UNLIKELY) {
-            fit.length_offsets = self.length_offsets(&state, &fit.robot);
+            fit.length_offsets = self.length_offsets(&state);
         }
         Ok(fit)
     }

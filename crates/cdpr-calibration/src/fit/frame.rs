@@ -13,6 +13,9 @@ const FAR: f64 = 0.05;
 /// Share of the misfit that is left where a rigid motion explains it.
 const LEFT: f64 = 0.2;
 
+/// Coordinates of which the sign is changed: none, or one of them.
+const SIGNS: [[f64; 3]; 4] = [[1.0; 3], [-1.0, 1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, -1.0]];
+
 /// Rows that are looked at.
 const FEW: usize = 12;
 
@@ -45,6 +48,17 @@ impl RigidMotion {
         let misfit = squares.map(|sum| (sum / count).sqrt());
         Some(Self { rotation: Rotation3::from_matrix_unchecked(turn), translation, misfit })
     }
+
+    /// What it does for positions that are off by `before` [m], and the remedy.
+    fn needed(&self, before: f64) -> String {
+        let [x, y, z] = [self.translation.x, self.translation.y, self.translation.z];
+        format!(
+            "with the lengths they fit to {:.3} m after a rotation by {:.1} degrees and a translation by ({x:.3}, \
+             {y:.3}, {z:.3}) m, to {before:.3} m without; seek the place of the tracker, `frame`",
+            self.misfit[1],
+            self.rotation.angle().to_degrees()
+        )
+    }
 }
 
 impl Problem<'_> {
@@ -63,10 +77,11 @@ impl Problem<'_> {
     }
 
     /// Refuses positions of rows that are not those of the lengths, but are after a rigid motion: they are in
-    /// the frame of a tracker.
+    /// the frame of a tracker. So it does where one coordinate has the other sign.
     ///
     /// # Errors
-    /// [`CalibrationError::Column`] that says how far and by how much the frame is turned.
+    /// [`CalibrationError::Column`] that says which coordinate has the other sign, or how far the frame is
+    /// and by how much it is turned.
     pub(super) fn check_frame(&self, rows: &[crate::Row]) -> Result<(), CalibrationError> {
         let x = vec![0.0; self.model.unknowns.all.len()];
         let far = FAR * size(self.model.robot);
@@ -80,21 +95,40 @@ impl Problem<'_> {
             };
             pairs.push((pose.position, measured.position));
         }
-        let Some(RigidMotion { rotation, translation, misfit: [before, after] }) =
+        let with_signs = |sign: [f64; 3]| {
+            let pairs: Vec<_> =
+                pairs.iter().map(|(at, seen)| (*at, seen.component_mul(&Vector3::from(sign)))).collect();
             RigidMotion::between(&pairs)
-        else {
-            return Ok(());
         };
-        if before < far || after > LEFT * before {
+        let found: Vec<RigidMotion> = SIGNS.into_iter().filter_map(with_signs).collect();
+        let [as_read, mirrored @ ..] = &found[..] else { return Ok(()) };
+        let [before, after] = as_read.misfit;
+        if before < far {
             return Ok(());
         }
-        let [x, y, z] = [translation.x, translation.y, translation.z];
-        let expected = format!(
-            "positions in the base frame of the robot: with the lengths they fit to {after:.3} m after a \
-             rotation by {:.1} degrees and a translation by ({x:.3}, {y:.3}, {z:.3}) m, to {before:.3} m \
-             without; seek the place of the tracker, `frame`",
-            rotation.angle().to_degrees()
-        );
+        // Of positions in a plane a mirror is a rotation, too: the smaller change is the likelier one.
+        let fits = |left: f64| left <= LEFT * before;
+        let other_sign = |is: &dyn Fn(&RigidMotion) -> bool| {
+            let all = Axis::ALL.into_iter().zip(mirrored).filter(|(_, of)| is(of));
+            all.min_by(|one, other| one.1.misfit[0].total_cmp(&other.1.misfit[0]))
+        };
+        if let Some((axis, RigidMotion { misfit: [left, _], .. })) = other_sign(&|of| fits(of.misfit[0])) {
+            let expected = format!(
+                "the other sign: with the lengths the positions then fit to {left:.3} m, to {before:.3} m as they \
+                 are"
+            );
+            return Err(CalibrationError::Column { column: Quantity::Position(axis).to_string(), expected });
+        }
+        if !fits(after) {
+            let Some((axis, moved)) = other_sign(&|of| fits(of.misfit[1])) else { return Ok(()) };
+            let expected = format!(
+                "a frame of the other hand: {} with the other sign, then {}",
+                Quantity::Position(axis),
+                moved.needed(before)
+            );
+            return Err(CalibrationError::Column { column: "x_m, y_m, z_m".to_owned(), expected });
+        }
+        let expected = format!("positions in the base frame of the robot: {}", as_read.needed(before));
         Err(CalibrationError::Column { column: "x_m, y_m, z_m".to_owned(), expected })
     }
 }

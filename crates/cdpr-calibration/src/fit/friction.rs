@@ -74,8 +74,8 @@ impl From<Estimate> for EstimatedValue {
 /// [`CalibrationError::Column`] for a table without tensions at winches of cables with pulleys, or without
 /// tensions at the platform where the model does not know them; [`CalibrationError::Incomplete`] for a row
 /// without one of them or without a position; [`CalibrationError::Invalid`] for one load only, a pose that is
-/// missing or given twice, and displacements without noise; [`CalibrationError::Statics`] for readings that no
-/// friction fits or wheels that all stick; [`CalibrationError::Row`] for a row to which the robot has no
+/// missing or given twice, and displacements without noise; [`CalibrationError::Statics`] for readings that
+/// no friction fits or wheels that all stick; [`CalibrationError::Row`] for a row to which the robot has no
 /// answer.
 pub fn calibrate_pulleys(
     robot: &Robot,
@@ -92,10 +92,10 @@ pub fn calibrate_pulleys(
     Ok(concluded(&history, &fit, friction, &history.states(none)?, &history.states(friction)?))
 }
 
-/// Standard deviation of the sum that is identified, as the readings leave open how both coefficients share it: to
-/// second order they depend on the product of both. It is that of an even law as wide as the greatest difference
-/// of the sums with all friction on the wheels and with all in the bearings. A coefficient alone that fits nothing
-/// is left out.
+/// Standard deviation of the sum that is identified, as the readings leave open how both coefficients share
+/// it: to second order they depend on the product of both. It is that of an even law as wide as the greatest
+/// difference of the sums with all friction on the wheels and with all in the bearings. A coefficient alone
+/// that fits nothing is left out.
 fn undecided(history: &History, fit: &FrictionFit) -> f64 {
     let of_one = |largest: [f64; 2]| {
         let of = |share: f64| PulleyFriction { friction: share * largest[0], bearing: share * largest[1] };

@@ -9,11 +9,10 @@ use crate::fit::search::Priors;
 use crate::fitted::{LengthOffsets, RobustLoss};
 use crate::model::{Model, State};
 use crate::sensor_error::SensorError;
-use cdpr_robot::Robot;
 
 impl Problem<'_> {
     /// What offsets of the lengths would take from chi-square at a minimum, if they are not sought.
-    pub(super) fn length_offsets(&self, state: &State, robot: &Robot) -> Option<LengthOffsets> {
+    pub(super) fn length_offsets(&self, state: &State) -> Option<LengthOffsets> {
         let Model { robot: nominal, unknowns, .. } = self.model;
         let is_sought = unknowns.sensor(SensorError::LengthOffset).is_some();
         let is_read = self.rows.iter().any(|row| row.lengths.is_some());
@@ -25,8 +24,7 @@ impl Problem<'_> {
         let problem = Problem { model: self.model.seeking(&more), ..*self };
         let mut state = state.clone();
         state.shared.x.resize(more.all.len(), 0.0);
-        let compared = problem.compared(&state, robot).ok()?;
-        let at = problem.linearized(&state.shared, compared);
+        let at = problem.measured_at(&state).ok()?;
         let decomposed = problem.decomposed(&at, &state.shared, Priors::All);
         let step = decomposed.step(0.0);
         let offsets = (unknowns.all.len()..more.all.len()).map(|j| step[j] * more.all[j].scale).collect();

@@ -6,6 +6,7 @@
 use crate::error::CalibrationError;
 use crate::fit::problem::Problem;
 use crate::model::compare::Compared;
+use crate::model::kink::Kink;
 use crate::model::{RowAt, RowState, State};
 use crate::solve::Eliminated;
 use nalgebra::{DMatrix, DVector};
@@ -13,6 +14,12 @@ use rayon::prelude::*;
 
 /// A row's own unknowns are at their best where a step would gain less than this share of its cost.
 const OWN_GAIN: f64 = 1e-3;
+
+/// The same share where the step of a row comes to a kink of an elastic law: it ends there, or beyond.
+const GAIN_AT_KINK: f64 = 1e-14;
+
+/// Rounding of the cost of a row, relative to one more than it.
+const ROUNDING_OF_COST: f64 = 1e-10;
 
 /// Rows whose cost exceeds its expectation by this many of its standard deviations are begun again.
 const BAD: f64 = 4.0;
@@ -142,37 +149,61 @@ impl Problem<'_> {
             }
             let count = residuals.len();
             let residuals = DMatrix::from_column_slice(count, 1, residuals.as_slice());
-            let per_own = compared.motion.columns(first, slopes.ncols()).into_owned();
-            let all = eliminated(residuals, &slopes, &per_own, &compared.between);
+            let own = |of: &DMatrix<f64>| of.columns(first, slopes.ncols()).into_owned();
+            let (per_own, bends) = (own(&compared.motion), own(&compared.bends));
+            let all = eliminated(residuals, &slopes, &per_own, &compared.between, &bends);
             let gain = all.gain();
-            if gain <= OWN_GAIN * (1.0 + cost) {
+            let step = all.own(&DVector::zeros(0));
+            let to_kinks = to_kinks(&compared, &step);
+            let least = if to_kinks.is_empty() { OWN_GAIN } else { GAIN_AT_KINK };
+            if gain <= least * (1.0 + cost) {
                 break;
             }
-            let step = all.own(&DVector::zeros(0));
             let motion = &compared.motion;
-            let tried =
-                Way::ALL.iter().flat_map(|way| SHARES.map(|share| (*way, share))).find_map(|(way, share)| {
-                    let own = step.iter().map(|of| share * of).collect();
-                    let moved = self.moved(at, &state, &RowStep { unknowns: &unknowns, own, motion }, way)?;
-                    (self.row_cost(&moved.1) < cost - GAINED * share * gain).then_some(moved)
-                });
-            let Some(tried) = tried else { break };
+            let after = |(way, share, allowed): (Way, f64, f64)| {
+                let own = step.iter().map(|of| share * of).collect();
+                let moved = self.moved(at, &state, &RowStep { unknowns: &unknowns, own, motion }, way)?;
+                let after = self.row_cost(&moved.1);
+                (after < allowed).then_some((after, moved))
+            };
+            // Beyond a kink the step is of another law: the best of both sides and the kink itself.
+            // The last of the way to a kink gains less than rounding.
+            let rounded = cost + ROUNDING_OF_COST * (1.0 + cost);
+            let at_kinks = to_kinks.into_iter().filter_map(|share| after((Way::Tensions, share, rounded)));
+            let gained = |way| SHARES.map(|share| (way, share, cost - GAINED * share * gain));
+            let whole = Way::ALL.into_iter().flat_map(gained).find_map(&after);
+            let best = at_kinks.chain(whole).min_by(|one, other| one.0.total_cmp(&other.0));
+            let Some((_, tried)) = best else { break };
             (state, compared) = tried;
         }
         (state, compared)
     }
 }
 
+/// Shares of a step of the unknowns of a row at which a tension comes to a kink of its law.
+fn to_kinks(compared: &Compared, step: &[f64]) -> Vec<f64> {
+    let step = DVector::from_column_slice(step);
+    let share = |kink: &Kink| kink.away / (&kink.per_own * &step)[0];
+    compared.kinks.iter().map(share).filter(|share| (0.0..1.0).contains(share) && *share > 0.0).collect()
+}
+
 /// A row without its own unknowns, where cables between taut and slack that would have less tension keep
 /// what they have. The tensions depend by `motion` on the unknowns of `row` (its columns without the last),
-/// then on those of `own`.
+/// then on those of `own`; so do `bends`, rows without residuals.
 pub(super) fn eliminated(
     row: DMatrix<f64>,
     own: &DMatrix<f64>,
     motion: &DMatrix<f64>,
     between: &[usize],
+    bends: &DMatrix<f64>,
 ) -> Eliminated {
     let count = row.ncols() - 1;
+    let above = row.nrows();
+    let mut row = row.resize_vertically(above + bends.nrows(), 0.0);
+    let mut both = own.clone().resize_vertically(above + bends.nrows(), 0.0);
+    row.view_mut((above, 0), (bends.nrows(), count)).copy_from(&bends.columns(0, count));
+    both.rows_mut(above, bends.nrows()).copy_from(&bends.columns(count, own.ncols()));
+    let own = &both;
     if between.is_empty() {
         return Eliminated::new(row, own);
     }

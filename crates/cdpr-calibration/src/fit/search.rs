@@ -185,6 +185,15 @@ impl Problem<'_> {
         Some((State { shared, rows }, linearized))
     }
 
+    /// All rows linearized at a state as they are measured: the second derivatives at kinks, which a search
+    /// follows, are no measurements.
+    pub(super) fn measured_at(&self, state: &State) -> Result<Linearized, CalibrationError> {
+        let robot = self.model.deviating(&state.shared.x)?;
+        let mut compared = self.compared(state, &robot)?;
+        compared.iter_mut().for_each(|of| of.bends = of.bends.rows(0, 0).into_owned());
+        Ok(self.linearized(&state.shared, compared))
+    }
+
     pub(super) fn linearized(&self, shared: &Shared, compared: Vec<Compared>) -> Linearized {
         let cost = self.cost(&compared, shared);
         let count = self.model.unknowns.all.len();
@@ -199,11 +208,14 @@ impl Problem<'_> {
                 row[(r, count)] = weight * of.residuals[r];
                 of.per_own.row_mut(r).iter_mut().for_each(|slope| *slope *= weight);
             }
-            let mut scaled = of.motion.clone();
-            for (j, unknown) in self.model.unknowns.all.iter().enumerate().filter(|_| own > 0) {
-                scaled.column_mut(j).iter_mut().for_each(|slope| *slope *= unknown.scale);
-            }
-            (eliminated(row, &of.per_own, &scaled, &of.between), of.motion)
+            let [scaled, bends] = [&of.motion, &of.bends].map(|slopes| {
+                let mut scaled = slopes.clone();
+                for (j, unknown) in self.model.unknowns.all.iter().enumerate().filter(|_| own > 0) {
+                    scaled.column_mut(j).iter_mut().for_each(|slope| *slope *= unknown.scale);
+                }
+                scaled
+            });
+            (eliminated(row, &of.per_own, &scaled, &of.between, &bends), of.motion)
         };
         let (rows, motions): (Vec<_>, Vec<_>) = compared.into_par_iter().map(row_of).unzip();
         Linearized { data: reduce(&rows, count + 1), rows, motions, cost }

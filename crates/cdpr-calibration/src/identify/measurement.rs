@@ -21,12 +21,12 @@ pub enum Measurement {
 }
 
 impl Measurement {
-    /// Measurements of a robot by the names of their noise: position and rotation together, of a point mass the
-    /// position alone, tensions, lengths.
+    /// Measurements of a robot by the names of their noise: position and rotation together, of a point mass
+    /// the position alone, tensions, lengths.
     ///
     /// # Errors
-    /// [`CalibrationError::Invalid`] for another name, for one of position and rotation alone, for the rotation
-    /// of a point mass, and for length alone.
+    /// [`CalibrationError::Invalid`] for another name, for one of position and rotation alone, for the
+    /// rotation of a point mass, and for length alone.
     pub fn named(robot: &Robot, named: &[(String, f64)]) -> Result<Vec<Self>, CalibrationError> {
         let noise = Noise::named(named)?;
         const NAMES: [&str; 4] = ["position", "rotation", "tension", "length"];

@@ -1,6 +1,7 @@
 //! A row of measurements beside the model.
 
 use crate::campaign::Quantity;
+use crate::model::kink::Kink;
 use crate::model::read::Observed;
 use crate::model::{Model, RowAt, RowState};
 use crate::sensor_error::SensorError;
@@ -27,6 +28,10 @@ pub(crate) struct Compared {
     /// Cables between taut and slack, to which slack would suit their measured lengths less: where less
     /// tension would, too, such a row is at its best with the cable as it is.
     pub(crate) between: Vec<usize>,
+    /// Tensions of which an elastic law has a kink.
+    pub(crate) kinks: Vec<Kink>,
+    /// Second derivatives there: further rows of `per_unknown` and `per_own`, without residuals.
+    pub(crate) bends: DMatrix<f64>,
 }
 
 impl Model<'_> {
@@ -45,6 +50,8 @@ impl Model<'_> {
             per_own: DMatrix::zeros(count, own),
             motion: if own > 0 { self.motion(at, &observed) } else { DMatrix::zeros(0, 0) },
             between: state.between_taut_and_slack(),
+            kinks: Vec::new(),
+            bends: DMatrix::zeros(0, self.unknowns.all.len() + own),
         };
         self.compare_readings(at, &observed, &mut compared);
         for i in 0..measured_lengths {
@@ -61,6 +68,7 @@ impl Model<'_> {
             factor.solve_lower_triangular_mut(&mut compared.per_unknown);
             factor.solve_lower_triangular_mut(&mut compared.per_own);
         }
+        self.compare_kinks(at, state, &observed, &mut compared);
         Ok(compared)
     }
 
@@ -89,7 +97,7 @@ impl Model<'_> {
 
     /// Derivatives by the unknowns of all rows and by those of the row, from those by the inputs of the
     /// models and the lengths.
-    fn chained(&self, at: &RowAt, lengths: &[f64], models: &RowDVector<f64>) -> RowDVector<f64> {
+    pub(super) fn chained(&self, at: &RowAt, lengths: &[f64], models: &RowDVector<f64>) -> RowDVector<f64> {
         let unknowns = self.unknowns.all.len();
         let mut chained = RowDVector::zeros(unknowns + lengths.len());
         for term in &self.unknowns.terms {

@@ -50,7 +50,7 @@ impl Model<'_> {
         };
         let is_at_exit =
             |of: Quantity| matches!(of, Quantity::Tension(_, CableEnd::Exit) | Quantity::Swivel(_));
-        let exits = row.readings.iter().any(|reading| is_at_exit(reading.quantity));
+        let exits = !robot.is_linear() || row.readings.iter().any(|reading| is_at_exit(reading.quantity));
         let exits = exits.then(|| slopes(&problem, &state.loaded, CableEnd::Exit)).transpose()?;
         let unloaded = state.unloaded.as_ref().map(|rest| {
             let problem = DirectProblem::new(robot, &lengths, &self.without_load(row, robot))?;

@@ -16,8 +16,10 @@ impl Fit {
         match self.status {
             FitStatus::Converged => {}
             FitStatus::AwayFromMinimum => warnings.push(format!(
-                "the search ended {:.1e} standard deviations from the minimum after {} steps",
-                self.distance, self.steps
+                "the search ended {:.1e} standard deviations from the minimum after {}: an estimate may be off \
+                 by that many of its own; make more starts, or seek fewer parameters",
+                self.distance,
+                counted(self.steps, "step")
             )),
             FitStatus::StartsDisagree => warnings.push(format!(
                 "of {starts} starts no other ended at this chi-square: another minimum may be lower; make \

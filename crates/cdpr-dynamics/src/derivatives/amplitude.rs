@@ -9,9 +9,10 @@
 //! ```
 //!
 //! with dH = -H dD H. Along an axis, w is u but for the phase. In the worst direction, u is that of (N23),
-//! which makes a stationary, and `w = (J H Jᵀ u)*/a`. As dD is symmetric, pᵀ dD x follows from (N11) for x + p and
-//! x - p, with the damped motions of the cables: `4 pᵀ dD x = (x + p)ᵀ dD (x + p) - (x - p)ᵀ dD (x - p)`. The
-//! skew part that a moment adds to D is constant.
+//! which makes a stationary, and `w = (J H Jᵀ u)*/a`. As dD is symmetric, pᵀ dD x follows from (N11) for x +
+//! p and x - p, with the damped motions of the cables:
+//! `4 pᵀ dD x = (x + p)ᵀ dD (x + p) - (x - p)ᵀ dD (x - p)`. The skew part that a moment adds to D is
+//! constant.
 
 use crate::derivatives::changes::{Changes, Moved};
 use crate::derivatives::{lacking, with_lengths};

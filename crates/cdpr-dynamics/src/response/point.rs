@@ -1,7 +1,7 @@
 //! How a point of the platform is shaken, and which of its motions nothing bounds.
 //!
-//! At a distance d below a natural frequency that nothing damps, every motion is `a + b/d`: those at d and 2 d
-//! give a and b. Where b is rounding, the motion at the natural frequency is a; elsewhere it has no bound.
+//! At a distance d below a natural frequency that nothing damps, every motion is `a + b/d`: those at d and 2
+//! d give a and b. Where b is rounding, the motion at the natural frequency is a; elsewhere it has no bound.
 
 use crate::error::DynamicsError;
 use crate::response::{Damping, FrequencyResponse, Response};

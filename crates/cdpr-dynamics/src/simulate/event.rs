@@ -131,8 +131,8 @@ struct Shorten {
 struct Lengths {
     /// Times since the event, ascending from zero [s].
     times: Vec<f64>,
-    /// Unstrained lengths at each of them, in the order of the robot's cables [m]; the first are those that the
-    /// cables have at the event.
+    /// Unstrained lengths at each of them, in the order of the robot's cables [m]; the first are those that
+    /// the cables have at the event.
     lengths: Vec<Vec<f64>>,
 }
 
@@ -322,8 +322,8 @@ fn lengths_at(rest: &[f64], before: &[&Event], time: f64) -> Vec<f64> {
 
 /// What of a table of lengths does not fit the lengths at its begin [m].
 fn fault_of_table(table: &WinchLengths, lengths: &[f64]) -> Option<(&'static str, String, String)> {
-    /// Share of a length by which the first row may differ, as rounding of a table does. The winch does what the
-    /// table changes.
+    /// Share of a length by which the first row may differ, as rounding of a table does. The winch does what
+    /// the table changes.
     const SAME: f64 = 1e-6;
     if table.cables() != lengths.len() {
         let expected = format!("one for each of the {} cables", lengths.len());

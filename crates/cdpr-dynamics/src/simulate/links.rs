@@ -53,7 +53,8 @@ impl Links {
         let Some(mesh) = &cable.mesh else { return };
         let masses = &at.forces.masses;
         let mut next = 0;
-        // Acceleration and 1 over the mass of the point before a link, and the direction to which it is bound.
+        // Acceleration and 1 over the mass of the point before a link, and the direction to which it is
+        // bound.
         let (mut before, mut lightness, mut way) = (Vector3::zeros(), 0.0, None);
         self.0.resize(at.forces.pulls.len() + usize::from(cable.is_led()), Link::default());
         let mut links = self.0.iter_mut();

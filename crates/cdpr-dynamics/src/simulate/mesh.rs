@@ -88,9 +88,9 @@ pub(super) struct Pull {
 
 impl Material<'_> {
     /// The least damping [s] of straight elements of a cable of a length [m] that goes slack. Such a cable
-    /// has shocks when it is taut again, which no mesh resolves; without damping their waves stay for ever (the
-    /// artificial viscosity of J. von Neumann, R. D. Richtmyer, *A method for the numerical calculation of
-    /// hydrodynamic shocks*, 1950). It vanishes with the length of the elements.
+    /// has shocks when it is taut again, which no mesh resolves; without damping their waves stay for ever
+    /// (the artificial viscosity of J. von Neumann, R. D. Richtmyer, *A method for the numerical calculation
+    /// of hydrodynamic shocks*, 1950). It vanishes with the length of the elements.
     pub(super) fn damping_of_shocks(&self, mesh: &Mesh, length: f64) -> f64 {
         if mesh.rule.degree > 1 {
             return 0.0;

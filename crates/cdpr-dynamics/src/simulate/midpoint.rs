@@ -159,8 +159,8 @@ fn longest(system: &System, at: &Snapshot) -> f64 {
     (LONGEST[0] / fastest(&(lightness * stiffness))).min(LONGEST[1] * passing)
 }
 
-/// A bound of the largest angular frequency, for squares that are the eigenvalues of a matrix: of their eighth
-/// powers, the eighth root of the sum.
+/// A bound of the largest angular frequency, for squares that are the eigenvalues of a matrix: of their
+/// eighth powers, the eighth root of the sum.
 fn fastest(squares: &Matrix6<f64>) -> f64 {
     let scale = squares.trace();
     let scaled = squares / scale.max(f64::MIN_POSITIVE);

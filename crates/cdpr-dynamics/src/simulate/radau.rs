@@ -1,5 +1,5 @@
-//! Radau IIA of order 5 with step control (E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*,
-//! second edition, 1996, section IV.8), for motions whose Newton matrix has a structure of its own.
+//! Radau IIA of order 5 with step control (E. Hairer, G. Wanner, *Solving Ordinary Differential Equations
+//! II*, second edition, 1996, section IV.8), for motions whose Newton matrix has a structure of its own.
 
 use nalgebra::{Complex, ComplexField};
 

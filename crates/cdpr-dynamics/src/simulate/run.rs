@@ -20,7 +20,8 @@ pub enum Command {
 }
 
 /// Decides at each sample what acts until the next one. Each computation of a motion calls it with its own
-/// samples, from the beginning or from the step in which a cable becomes slack: it must depend on its argument alone.
+/// samples, from the beginning or from the step in which a cable becomes slack: it must depend on its
+/// argument alone.
 pub type Control<'a> = dyn Fn(&Sample) -> Command + Sync + 'a;
 
 /// A motion that is wanted.

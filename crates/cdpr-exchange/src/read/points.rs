@@ -1,5 +1,5 @@
-//! A table of points with one cable in each line, with the separators and decimal marks of all tables. Columns
-//! are found by meaning: `Exit X [mm]` is `exit_x`.
+//! A table of points with one cable in each line, with the separators and decimal marks of all tables.
+//! Columns are found by meaning: `Exit X [mm]` is `exit_x`.
 
 mod columns;
 

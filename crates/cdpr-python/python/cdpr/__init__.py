@@ -3,7 +3,7 @@
 All units are SI; the base frame has z up. A pose is x, y, z [m] or x, y, z, qw, qx, qy, qz.
 
 Every call takes one case, or arrays with a first axis of m cases, which are computed on all cores. The answer
-then has that axis, too, with NaN where there is no answer, and the reasons beside it. A single case without
+then has that axis, too, with NaN where there is no answer, and the reasons next to it. A single case without
 an answer raises.
 
 >>> import cdpr

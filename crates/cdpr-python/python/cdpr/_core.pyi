@@ -512,7 +512,7 @@ class Robot:
         payload : array_like, optional
             Mass added at the platform's centre of mass [kg].
         reference : array_like, optional
-            Tensions that the tensions are nearest to [N], (n,), in place of the robot's own
+            Tensions that the tensions are nearest to [N], (n,), instead of the robot's own
             `tension_reference`; zeros for the least norm.
         path : bool, default False
             Whether the cases are a path, so that each keeps to the branch of tensions of the one before as
@@ -1305,7 +1305,7 @@ class Robot:
         force, moment : array_like, optional
             On the platform in the base frame, about P [N, N m], (3,).
         wrenches : array_like, optional
-            Wrenches that may act beside the load, fx to mz about P [N, N m], (k, 6); all poses have the
+            Wrenches that may act with the load, fx to mz about P [N, N m], (k, 6); all poses have the
             same.
         tilt : int, default 0
             Number of azimuths, from x to y, towards which the platform is tilted as far as tensions within
@@ -3415,7 +3415,7 @@ def pose(
         A quaternion qw, qx, qy, qz, (4,) or (m, 4), with the scalar first; or a
         `scipy.spatial.transform.Rotation`, whose own order does not matter then.
     rpy_deg : array_like, optional
-        roll, pitch, yaw [degrees], (3,) or (m, 3), in place of a rotation: R = Rz(yaw) Ry(pitch)
+        roll, pitch, yaw [degrees], (3,) or (m, 3), instead of a rotation: R = Rz(yaw) Ry(pitch)
         Rx(roll).
 
     Returns
@@ -3608,10 +3608,11 @@ def analyse(
     level: float,
     seed: int,
     dependence_rows: int,
+    all_outputs: int,
 ) -> str:
-    """Analyses rows of inputs, (n, k), and their outputs, (n,): the analysis as JSON. An input of words has its
+    """Analyses rows of inputs, (n, k), and an output of them, (n,), one of `all_outputs`: the analysis as JSON.
 
-    labels, and their numbers as values.
+    An input of words has its labels, and their numbers as values.
     """
 def check(robot: Robot) -> str:
     """What is odd about a robot and yet no error, as JSON."""
@@ -3800,7 +3801,7 @@ def identify(
     payload: float,
     free: list[str] | None,
 ) -> str:
-    """What measurements at poses tell of uncertain parameters, as JSON."""
+    """What measurements at poses determine of uncertain parameters, as JSON."""
 def plan(
     robot: Robot,
     poses: ArrayLike,

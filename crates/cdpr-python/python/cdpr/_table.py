@@ -152,6 +152,19 @@ class Table:
         return f"<{name} of {count} {names}{values}: {'; '.join(rows + rest)}>"
 
 
+def count_of(outputs: Any) -> int:
+    """The number of outputs that `by_output` takes apart."""
+    import numpy
+
+    if isinstance(outputs, Mapping):
+        return len(outputs)
+    try:
+        shape = numpy.shape(outputs)
+    except ValueError:  # of rows of different lengths
+        return 1
+    return int(shape[1]) if len(shape) == 2 else 1
+
+
 def by_output(
     outputs: Any, one: Callable[..., _T], *more: Any, single: str = "y"
 ) -> Union[_T, dict[str, _T]]:

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Union
 import numpy
 
 from ._core import analyse as _analyse
-from ._table import Column, Interval, Table, by_output
+from ._table import Column, Interval, Table, by_output, count_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -240,8 +240,10 @@ def analyse(
         names = [f"x{k + 1}" for k in range(x.shape[-1])] if columns is None else list(columns)
     listed = [str(name) for name in names]
 
+    count = count_of(outputs)
+
     def one(output: str, values: ArrayLike) -> Analysis:
-        text = _analyse(x, values, listed, labels, limit, level, seed, dependence_rows)
+        text = _analyse(x, values, listed, labels, limit, level, seed, dependence_rows, count)
         return Analysis(output, json.loads(text), x, values)
 
     return by_output(outputs, one)

@@ -111,11 +111,11 @@ def read(
     cable : path, optional
         Cable of all cables: a cable file, or a name of `cables()`.
     mass : float, optional
-        Mass of the platform [kg], in place of that in the files.
+        Mass of the platform [kg], instead of that in the files.
     center_of_mass : array_like, optional
-        In the platform frame [m], (3,), in place of that in the files.
+        In the platform frame [m], (3,), instead of that in the files.
     tension_limits : array_like, optional
-        Least and greatest tension [N], (2,), in place of those in the files.
+        Least and greatest tension [N], (2,), instead of those in the files.
     cable_set : str, optional
         Cable set of CASPR; the default one if left out.
 

@@ -139,7 +139,7 @@ def run(
         Folder for the results. If left out, they are in one of the system that is removed when nothing
         refers to the results any more.
     observations : int, optional
-        Number of observations of each sampling, in place of the study's.
+        Number of observations of each sampling, instead of the study's.
     resume : bool, default False
         Continue with the blocks of this study that the folder holds. Without this or `overwrite`, a
         folder that holds blocks is refused.
@@ -154,7 +154,7 @@ def run(
         Function that is called with (done, all) observations from time to time, in the thread that
         called. What it raises ends the run, as Ctrl-C does.
     executor : object, optional
-        What makes the blocks of observations, in place of this process: an executor of
+        What makes the blocks of observations, instead of this process: an executor of
         `concurrent.futures`, Dask's client, or a pool with `imap_unordered`, such as those of
         `multiprocessing` and `ray.util.multiprocessing`. Its workers need this package and the same
         folder. A pool of `multiprocessing` does not notice that a worker was killed, and the run waits

@@ -222,7 +222,7 @@ impl Robot {
     /// payload : array_like, optional
     ///     Mass added at the platform's centre of mass [kg].
     /// reference : array_like, optional
-    ///     Tensions that the tensions are nearest to [N], (n,), in place of the robot's own
+    ///     Tensions that the tensions are nearest to [N], (n,), instead of the robot's own
     ///     `tension_reference`; zeros for the least norm.
     /// path : bool, default False
     ///     Whether the cases are a path, so that each keeps to the branch of tensions of the one before as

@@ -18,7 +18,7 @@ use pyo3::prelude::*;
 ///     A quaternion qw, qx, qy, qz, (4,) or (m, 4), with the scalar first; or a
 ///     `scipy.spatial.transform.Rotation`, whose own order does not matter then.
 /// rpy_deg : array_like, optional
-///     roll, pitch, yaw [degrees], (3,) or (m, 3), in place of a rotation: R = Rz(yaw) Ry(pitch)
+///     roll, pitch, yaw [degrees], (3,) or (m, 3), instead of a rotation: R = Rz(yaw) Ry(pitch)
 ///     Rx(roll).
 ///
 /// Returns

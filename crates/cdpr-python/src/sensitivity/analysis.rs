@@ -14,9 +14,9 @@ struct Found {
     analysis: Analysis,
 }
 
-/// Analyses rows of inputs, (n, k), and their outputs, (n,): the analysis as JSON. An input of words has its
+/// Analyses rows of inputs, (n, k), and an output of them, (n,), one of `all_outputs`: the analysis as JSON.
 ///
-/// labels, and their numbers as values.
+/// An input of words has its labels, and their numbers as values.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn analyse(
@@ -29,6 +29,7 @@ pub(crate) fn analyse(
     level: f64,
     seed: u64,
     dependence_rows: usize,
+    all_outputs: usize,
 ) -> Answer<String> {
     let (x, y) = (Array::new("X", &rows)?, Array::new("Y", &outputs)?);
     let k = names.len();
@@ -56,7 +57,8 @@ pub(crate) fn analyse(
         for (input, labels) in labels.into_iter().enumerate().filter(|(_, labels)| !labels.is_empty()) {
             data = data.with_levels(input, labels)?;
         }
-        let analysis = Analyser { level, seed, dependence_rows, limit }.analyse(&data)?;
+        let analysis =
+            Analyser { level, seed, dependence_rows, limit, outputs: all_outputs }.analyse(&data)?;
         Ok::<_, cdpr_sensitivity::SensitivityError>(Found {
             left_out: y.values.len() - complete.len(),
             analysis,

@@ -113,8 +113,8 @@ pub(crate) fn poses(summary: &Summary) -> impl Iterator<Item = (&str, &PosesSumm
     })
 }
 
-/// Dominant parameters, the first one first, and how that is known: those that matter for certain, by the largest
-/// t-Student index where no bounds say so.
+/// Dominant parameters, the first one first, and how that is known: those that matter for certain, by the
+/// largest t-Student index where no bounds say so.
 fn dominant(sampling: &SamplingSummary) -> (Vec<&str>, String) {
     let recommendation = sampling.verdict.recommendation.as_ref();
     let bounded = recommendation.filter(|of| of.inputs.iter().any(|input| input.standing.is_some()));

@@ -39,8 +39,8 @@ impl Robot {
 
     /// The robot with other values of some parameters, by name and in [`Parameter::unit`].
     ///
-    /// The value of a parameter that cables share is that of the first cable. The others change by as much, as
-    /// in [`Robot::perturbed`].
+    /// The value of a parameter that cables share is that of the first cable. The others change by as much,
+    /// as in [`Robot::perturbed`].
     ///
     /// # Errors
     /// [`RobotError::UnknownParameter`] for a name that the robot does not have, and for an offset of a

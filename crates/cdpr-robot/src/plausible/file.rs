@@ -152,8 +152,8 @@ pub fn reference(robot: &Robot) -> Option<Doubt> {
     ))
 }
 
-/// The doubt whether the limits are in kN, for a reason: all of them are far below what such cables carry, and
-/// a thousand times as much is not too much.
+/// The doubt whether the limits are in kN, for a reason: all of them are far below what such cables carry,
+/// and a thousand times as much is not too much.
 fn limits(robot: &Robot, reason: String) -> Option<Doubt> {
     let limits = robot.cables.iter().enumerate().map(|(i, cable)| (robot.limits(i).max, &cable.properties));
     let are_low = limits.clone().all(|(max, properties)| cable::is_idle(properties, max));

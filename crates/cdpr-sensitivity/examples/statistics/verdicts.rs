@@ -1,11 +1,12 @@
-//! How often the verdict of a table calls an input certain that has no effect, and how often it misses a cause.
+//! How often the verdict of a table calls an input certain that has no effect, and how often it misses a
+//! cause.
 
 use cdpr_sensitivity::{Analyser, SensitivityError};
 
 use crate::known_tables::{KINDS, Source};
 
-/// Prints, for each kind of table, the tables with a false certainty, the causes that are found, and those that
-/// are certain.
+/// Prints, for each kind of table, the tables with a false certainty, the causes that are found, and those
+/// that are certain.
 pub(crate) fn table(studies: u64, part: &str) -> Result<(), SensitivityError> {
     println!(
         "{studies} tables of each kind: tables with an input called certain without an effect of its own;"

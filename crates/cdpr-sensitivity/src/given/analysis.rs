@@ -31,6 +31,8 @@ pub struct Analyser {
     pub dependence_rows: usize,
     /// Limit whose failures are asked for.
     pub limit: Option<Limit>,
+    /// Number of outputs of the table: doubts of its inputs are corrected for all of them together.
+    pub outputs: usize,
 }
 
 impl Analyser {
@@ -47,10 +49,10 @@ impl Analyser {
         check_range("inputs", count as u64, 1, MOST_INPUTS as u64)
     }
 
-    /// Intervals of 95 %, dependences of 2000 rows, no limit.
+    /// Intervals of 95 %, dependences of 2000 rows, no limit, a single output.
     #[must_use]
     pub fn new(seed: u64) -> Self {
-        Self { level: 0.95, seed, dependence_rows: 2000, limit: None }
+        Self { level: 0.95, seed, dependence_rows: 2000, limit: None, outputs: 1 }
     }
 }
 

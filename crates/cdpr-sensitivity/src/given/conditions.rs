@@ -2,7 +2,8 @@
 //! what they seem to be.
 //!
 //! - **Repeated rows.** Rows count once if more of them repeat an earlier one than where each column is dealt
-//!   to the rows at random, or if they are few settings of many rows each. Rows of equal inputs and different outputs are one *unit* with their mean output.
+//!   to the rows at random, or if they are few settings of many rows each. Rows of equal inputs and different
+//!   outputs are one *unit* with their mean output.
 
 use std::collections::{HashMap, HashSet};
 
@@ -71,9 +72,9 @@ fn units(columns: &[&[f64]]) -> (Vec<usize>, usize) {
     (units, known.len())
 }
 
-/// The units, if rows repeat more often than by chance, or if they are less than half as many as by chance and a
-/// column of numbers has another value in most of them: few settings with many rows of each. The levels of a
-/// design are other than that: each has rows of several units.
+/// The units, if rows repeat more often than by chance, or if they are less than half as many as by chance
+/// and a column of numbers has another value in most of them: few settings with many rows of each. The levels
+/// of a design are other than that: each has rows of several units.
 fn repeated(columns: &[&[f64]], kinds: &[Kind], seed: u64) -> Option<(Vec<usize>, usize)> {
     let (of_rows, count) = units(columns);
     let n = of_rows.len();
@@ -120,9 +121,9 @@ pub(crate) fn distinct(observed: &Observed, kinds: &[Kind], seed: u64) -> Option
     })
 }
 
-/// One row for all of equal inputs, with their mean output, if these repeat more often than by chance. The mean
-/// is that of equally many rows of each, the first ones: means of more rows scatter less, and how often inputs
-/// repeat may depend on them.
+/// One row for all of equal inputs, with their mean output, if these repeat more often than by chance. The
+/// mean is that of equally many rows of each, the first ones: means of more rows scatter less, and how often
+/// inputs repeat may depend on them.
 pub(crate) fn clusters(observed: &Observed, kinds: &[Kind], seed: u64) -> Option<Observed> {
     let columns: Vec<&[f64]> = observed.columns.iter().map(Vec::as_slice).collect();
     let (units, count) = if columns.is_empty() { None } else { repeated(&columns, kinds, seed) }?;

@@ -24,8 +24,9 @@
 //!   outputs that are dealt to the rows at random) and too small for a strong one.
 //! - (De5): the widths of `A_1` are chosen by folds within the first half, and it is measured by the second.
 //!   Nothing that it is measured by has a part in its choice, so that the bound holds for any law. (De6) is
-//!   the variance of a U statistic to the first order: W. Hoeffding (1948). The two deviations add up: without
-//!   an effect, what the two halves happen to have in common raises both differences. t is Student's factor.
+//!   the variance of a U statistic to the first order: W. Hoeffding (1948). The two deviations add up:
+//!   without an effect, what the two halves happen to have in common raises both differences. t is Student's
+//!   factor.
 //! - There is no such upper bound: beside any law there are others with a larger δ, in waves of x too short
 //!   for the rows to tell. D. L. Donoho, *One-sided inference about functionals of a density*, Ann. Stat. 16
 //!   (1988). What else was tried, and how often it held, is in docs/statistics.md.

@@ -10,8 +10,9 @@
 //! ```
 //!
 //! - (Ev1), (Ev2): the moments are (Hs3) and (Hs5) of [`hsic`](crate::given::hsic), exact for any scores and
-//!   any ties, where F or χ² assume normal ones. Of two values in two groups p is exact (R. A. Fisher). (Ev3) is the share of the permutations that are as far apart
-//!   as any can be: no permutation test has a smaller p.
+//!   any ties, where F or χ² assume normal ones. Of two values in two groups p is exact (R. A. Fisher). (Ev3)
+//!   is the share of the permutations that are as far apart as any can be: no permutation test has a smaller
+//!   p.
 //! - (Ev4) is the index by ranks ([`rank`](crate::given::rank)) of the ranks of the output (R. Bartels 1982;
 //!   S. Chatterjee 2021), with a normal law of the exact moments over all permutations. Of an output with two
 //!   values Q counts runs, whose law is known (A. Wald, J. Wolfowitz, *On a test whether two samples are from

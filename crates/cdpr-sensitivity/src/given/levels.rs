@@ -1,4 +1,5 @@
-//! Inputs of few levels, or of words: the mean output at each level, and the share of the variance between them.
+//! Inputs of few levels, or of words: the mean output at each level, and the share of the variance between
+//! them.
 //!
 //! With m levels of `n_l` rows, their means `y_l`, and the variance V of all n outputs (n - 1),
 //!
@@ -11,8 +12,8 @@
 //!
 //! (Le1) is the correlation ratio, corrected for chance: 0 in the mean without an effect (T. L. Kelley, *An
 //! unbiased correlation ratio measure*, Proc. Natl. Acad. Sci. 21, 1935). (Le3) is its variance to the first
-//! order and, without an effect, that of a quotient of χ². The interval is from `1 - θ exp(h / θ)` to `1 - θ + h`,
-//! with `h = t √(Var θ)` and f degrees of freedom: fewer where few rows decide the variance.
+//! order and, without an effect, that of a quotient of χ². The interval is from `1 - θ exp(h / θ)` to
+//! `1 - θ + h`, with `h = t √(Var θ)` and f degrees of freedom: fewer where few rows decide the variance.
 
 use serde::{Deserialize, Serialize};
 

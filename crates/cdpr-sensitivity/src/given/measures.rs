@@ -196,7 +196,8 @@ impl<'a> Work<'a> {
         first.into_iter().map(|of| of.filter(|_| says(&of))).collect()
     }
 
-    /// R² and the coefficient of each input of numbers. An input of words has a column for each level but one.
+    /// R² and the coefficient of each input of numbers. An input of words has a column for each level but
+    /// one.
     fn regression(&self, of: Of) -> Result<(f64, Vec<Option<f64>>), SensitivityError> {
         let (mut names, mut columns, mut places) = (vec![], vec![], vec![]);
         for ((name, column), kind) in self.names.iter().zip(&self.observed.columns).zip(&self.kinds) {
@@ -254,6 +255,7 @@ impl<'a> Work<'a> {
             coordinate: &self.coordinate,
             dependence,
             rows: self.rows(),
+            outputs: self.analyser.outputs.max(1),
         };
         let mut verdict = table.verdict();
         let first = self.first(&mut Notes(Vec::new()));

@@ -25,10 +25,11 @@
 //! - (Ra5): with σ²(x) the variance of y given x, n V² Var θ is the variance of
 //!   `(y - E (y | x))² - θ (y - ȳ)²` plus `E σ⁴(x) >= (E σ²(x))² = θ² V²` (Jensen's inequality).
 //!   No estimate is below that; without an effect it is the variance itself.
-//! - The interval is (CI7) of [`interval`](crate::sample::interval), with (Ra5) at each θ. The 8 and Student's
-//!   factor of f degrees of freedom allow for few rows: n / 8 for normal outputs and those of shorter tails.
-//!   `n*` is the number of equally large deviations whose mean square scatters as that of the outputs does
-//!   (Ra6). Where few rows decide the variance, as of a lognormal output, the interval may hold all from 0 to 1.
+//! - The interval is (CI7) of [`interval`](crate::sample::interval), with (Ra5) at each θ. The 8 and
+//!   Student's factor of f degrees of freedom allow for few rows: n / 8 for normal outputs and those of
+//!   shorter tails. `n*` is the number of equally large deviations whose mean square scatters as that of the
+//!   outputs does (Ra6). Where few rows decide the variance, as of a lognormal output, the interval may hold
+//!   all from 0 to 1.
 //!
 //! `cargo xtask statistics given` counts how often the intervals hold the index.
 //!
@@ -40,9 +41,9 @@
 //! z_ij = (mean((u_j' - u_j)²) - (1 - r_ij²) / 6) / √(1 / (20 m))                      (Ra7)
 //! ```
 //!
-//! of each input i and the 64 next ones j is at most 3.4 for 62 inputs of random rows and of Latin hypercubes,
-//! and from 256 rows on 6 to 34 for five and more inputs of Sobol's sequence, plain or scrambled. Rows with a z
-//! above 5 are refused.
+//! of each input i and the 64 next ones j is at most 3.4 for 62 inputs of random rows and of Latin
+//! hypercubes, and from 256 rows on 6 to 34 for five and more inputs of Sobol's sequence, plain or scrambled.
+//! Rows with a z above 5 are refused.
 //!
 //! The inputs must be independent of each other: what a correlated input causes is counted for both. Rows of
 //! equal values of an input are put into random order. No unit.

@@ -7,9 +7,9 @@
 //! p*_k = max over j <= k of (m - j + 1) p_j                                          (Ve1)
 //! ```
 //!
-//! and an input matters where one of its p* is below 5 %. Whatever the tests have in common, the probability of
-//! one or more false findings in a table is 5 % at most: S. Holm, *A simple sequentially rejective multiple test
-//! procedure*, Scand. J. Stat. 6 (1979).
+//! and an input matters where one of its p* is below 5 %. Whatever the tests have in common, the probability
+//! of one or more false findings in a table is 5 % at most: S. Holm, *A simple sequentially rejective
+//! multiple test procedure*, Scand. J. Stat. 6 (1979).
 //!
 //! The tests hold for rows that are independent of each other, and what they find is the effect of an input
 //! where inputs are independent. An input is therefore *certain* to matter only if
@@ -58,6 +58,17 @@ pub struct Finding {
     pub p_value: f64,
     /// Why it need not be a cause.
     pub reasons: Vec<String>,
+}
+
+/// How the reason begins that is no more than a possible dependence.
+const MAY_DEPEND: &str = "may depend on ";
+
+impl Finding {
+    /// The others on which it may depend, where nothing else keeps it from being certain.
+    fn unless(&self) -> Option<&str> {
+        let [reason] = &self.reasons[..] else { return None };
+        reason.strip_prefix(MAY_DEPEND)
+    }
 }
 
 /// An input of which nothing can be said.
@@ -111,6 +122,8 @@ pub(crate) struct Table<'a> {
     /// HSIC of these, where it is known.
     pub(crate) dependence: Option<&'a [Dependence]>,
     pub(crate) rows: Rows,
+    /// Number of outputs of the table.
+    pub(crate) outputs: usize,
 }
 
 impl Table<'_> {
@@ -130,7 +143,7 @@ impl Table<'_> {
         let tests = self.tests(&tested);
         verdict.tests = tests.iter().map(Vec::len).sum();
         self.note_tests(&mut verdict);
-        let inputs = Inputs::new(&tested, self.coordinate, &self.drawn.outputs);
+        let inputs = Inputs::new(&tested, self.coordinate, &self.drawn.outputs, self.outputs);
         let found = corrected(&tests);
         let (pairs, mut likely) = (inputs.pairs(), Vec::new());
         for ((input, tests), companions) in found.iter().zip(inputs.companions(&found)) {
@@ -138,8 +151,8 @@ impl Table<'_> {
             let with = companions.inputs.iter().map(|other| [*input.min(other), *input.max(other)]);
             let doubtful: Vec<[usize; 2]> = with.filter(|pair| !pairs.contains(pair)).collect();
             if !companions.inputs.is_empty() {
-                let depends = if doubtful.is_empty() { "depends" } else { "may depend" };
-                reasons.push(format!("{depends} on {}", self.named(&companions.inputs)));
+                let depends = if doubtful.is_empty() { "depends on " } else { MAY_DEPEND };
+                reasons.push(format!("{depends}{}", self.named(&companions.inputs)));
             }
             likely.extend(doubtful);
             if !companions.patterns.is_empty() {
@@ -250,6 +263,12 @@ pub(crate) fn listed<T>(all: &[T], most: usize, word: impl Fn(&T) -> String) -> 
     }
 }
 
+/// Inputs that are found, each with what finds it first.
+fn names(list: &[&Finding]) -> String {
+    let name = |finding: &&Finding| format!("{} ({})", finding.input, finding.measure.word());
+    list.iter().map(name).collect::<Vec<_>>().join(", ")
+}
+
 /// `1 row`, `2 rows`.
 pub(crate) fn counted(count: usize, word: &str) -> String {
     format!("{count} {word}{}", if count == 1 { "" } else { "s" })
@@ -268,27 +287,49 @@ impl Verdict {
         }
     }
 
+    /// What the first sentence says of inputs that are certain unless they depend on others.
+    fn unless(&self) -> String {
+        let all: Vec<&Finding> = self.related.iter().filter(|finding| finding.unless().is_some()).collect();
+        let several = names(&all);
+        match &all[..] {
+            [] => String::new(),
+            [one] => {
+                let others = one.unless().unwrap_or_default();
+                if self.certain.is_empty() {
+                    format!("; {several} is, unless it depends on {others}")
+                } else {
+                    format!("; so is {several}, unless it depends on {others}")
+                }
+            }
+            _ if self.certain.is_empty() => format!("; {several} are, unless they depend on others"),
+            _ => format!("; so are {several}, unless they depend on others"),
+        }
+    }
+
     /// Writes the sentences on all inputs that vary.
     pub(crate) fn concluded(mut self, inputs: &[&str]) -> Self {
-        let name = |finding: &Finding| format!("{} ({})", finding.input, finding.measure.word());
-        let names = |list: &[Finding]| -> String { list.iter().map(name).collect::<Vec<_>>().join(", ") };
         let few = self.conditions.iter().any(|condition| condition.concern == Concern::FewRows);
         self.sentences = if few {
             let are = if self.rows == 1 { "is" } else { "are" };
             vec![format!("no verdict: {} {are} too few", counted(self.rows, "different row"))]
         } else {
             let (certain, all) = (self.certain.len(), counted(inputs.len(), "input"));
+            let (unless, certain_ones) = (self.unless(), self.certain.iter().collect::<Vec<_>>());
             vec![match certain {
-                0 => format!("none of {all} is certain to matter"),
-                1 => format!("1 of {all} is certain to matter: {}", names(&self.certain)),
-                _ => format!("{certain} of {all} are certain to matter: {}", names(&self.certain)),
+                0 => format!("none of {all} is certain to matter{unless}"),
+                1 => format!("1 of {all} is certain to matter: {}{unless}", names(&certain_ones)),
+                _ => format!("{certain} of {all} are certain to matter: {}{unless}", names(&certain_ones)),
             }]
         };
-        if !self.related.is_empty() {
-            self.sentences.push(format!("related, cause or not: {}", names(&self.related)));
-            let reason = |finding: &Finding| format!("{}: {}", finding.input, finding.reasons.join("; "));
-            self.sentences.extend(self.related.iter().map(reason));
+        let others: Vec<&Finding> =
+            self.related.iter().filter(|finding| finding.unless().is_none()).collect();
+        if !others.is_empty() {
+            self.sentences.push(format!("related, cause or not: {}", names(&others)));
         }
+        let is_said = self.related.len() - others.len() == 1;
+        let reason = |finding: &Finding| format!("{}: {}", finding.input, finding.reasons.join("; "));
+        let related = self.related.iter().filter(|finding| !is_said || finding.unless().is_none());
+        self.sentences.extend(related.map(reason));
         let found = self.certain.iter().chain(&self.related).map(|finding| finding.input.as_str());
         let doubtful = self.doubtful.iter().map(|doubt| doubt.input.as_str());
         let settled: HashSet<&str> = found.chain(doubtful).collect();

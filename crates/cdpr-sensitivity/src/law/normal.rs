@@ -9,9 +9,9 @@
 //! Var z = 1 + (low φ(low) - high φ(high)) / mass - (E z)²                 (No3)
 //! ```
 //!
-//! Over a narrow interval these are differences of numbers that are almost equal. Its moments are integrals about
-//! its middle then, by the rule of Gauss and Legendre with five points, and in so narrow a one that φ changes
-//! by 3e-4 at most, F is a parabola.
+//! Over a narrow interval these are differences of numbers that are almost equal. Its moments are integrals
+//! about its middle then, by the rule of Gauss and Legendre with five points, and in so narrow a one that φ
+//! changes by 3e-4 at most, F is a parabola.
 //!
 //! N. L. Johnson, S. Kotz, N. Balakrishnan, *Continuous univariate distributions*, vol. 1 (1994), section
 //! 13.10.1.

@@ -34,9 +34,9 @@
 //!   respect to `x_i`, bounds the others.
 //!
 //! The bounds are those of a continuous output and of independent inputs with the laws that they are given.
-//! They are refused where an observation failed, because the inputs of the others have other laws; where steps
-//! change the variance of an input by more than 1 % (shorter ones count as a wider law); and where the upper
-//! bounds of all inputs add up to less than 1, because
+//! They are refused where an observation failed, because the inputs of the others have other laws; where
+//! steps change the variance of an input by more than 1 % (shorter ones count as a wider law); and where the
+//! upper bounds of all inputs add up to less than 1, because
 //! total indices do not: the output jumps, and its derivatives do not see it. No unit.
 
 use std::f64::consts::{PI, SQRT_2};
@@ -85,8 +85,8 @@ const GROUPS: usize = 20;
 ///
 /// # Errors
 /// As [`crate::dgsm`]; [`SensitivityError::OutOfRange`] for fewer than 40 observations;
-/// [`SensitivityError::Failed`], [`SensitivityError::Stepped`] and [`SensitivityError::Jumps`] where the bounds
-/// do not hold.
+/// [`SensitivityError::Failed`], [`SensitivityError::Stepped`] and [`SensitivityError::Jumps`] where the
+/// bounds do not hold.
 pub fn brackets<D: IndependentSample>(
     design: &D,
     slopes: &[Option<Slopes>],

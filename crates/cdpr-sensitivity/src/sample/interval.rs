@@ -28,8 +28,9 @@
 //!
 //! Its upper end is above that of (CI2) for the same s*.
 //!
-//! A quotient of two means, such as the part θ of a variance that an input leaves, has a deviation that depends
-//! on its value. Its interval has the values that a test with their own deviation s*(θ0) does not refuse,
+//! A quotient of two means, such as the part θ of a variance that an input leaves, has a deviation that
+//! depends on its value. Its interval has the values that a test with their own deviation s*(θ0) does not
+//! refuse,
 //!
 //! ```text
 //! |θ - θ0| <= t_(f, (1 + level) / 2) s*(θ0),   θ0 >= 0                    (CI7)
@@ -159,8 +160,8 @@ impl Estimate {
         Ok(Self { value, low: value / factor, high: value * factor })
     }
 
-    /// The share `1 - θ` of an estimated θ >= 0, with its interval (CI7) from the deviation s* as a function of
-    /// the true θ.
+    /// The share `1 - θ` of an estimated θ >= 0, with its interval (CI7) from the deviation s* as a function
+    /// of the true θ.
     pub(crate) fn of_rest(
         theta: f64,
         deviation: impl Fn(f64) -> f64,

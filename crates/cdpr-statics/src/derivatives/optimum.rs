@@ -54,8 +54,8 @@ const DISTRIBUTION: &str = "the tension distribution";
 /// More cables than these without a multiplier have too many combinations.
 const MOST_UNDECIDED: usize = 12;
 
-/// A matrix of (D6) with a diagonal of one and an eigenvalue below this is singular to rounding: too few cables
-/// are between their bounds, and the multipliers are not unique.
+/// A matrix of (D6) with a diagonal of one and an eigenvalue below this is singular to rounding: too few
+/// cables are between their bounds, and the multipliers are not unique.
 const NEARLY_SINGULAR: f64 = 1e-12;
 
 /// A change below this, relative to the largest in its column, is rounding.

@@ -131,8 +131,8 @@ pub(super) fn cables_with(robot: &Robot, at: &PoseLengths) -> Result<Vec<CableDe
     Ok(CableDerivatives::all(&problem, &equilibrium.pose, &equilibrium.cable_forces))
 }
 
-/// Derivatives of the lengths from those of the set-points and of the tensions with constant lengths, equation
-/// (D7).
+/// Derivatives of the lengths from those of the set-points and of the tensions with constant lengths,
+/// equation (D7).
 pub(super) fn lengths_of(
     set_points: &DMatrix<f64>,
     tensions: DMatrix<f64>,

@@ -16,8 +16,8 @@ pub enum DirectStart<'a> {
     Pose(&'a Pose),
     /// At a pose with cable forces that need not fit it: an equilibrium nearby.
     Near(&'a Equilibrium),
-    /// Released at rest at a pose: the stable equilibrium downhill of it, even where Newton's method would reach
-    /// another one.
+    /// Released at rest at a pose: the stable equilibrium downhill of it, even where Newton's method would
+    /// reach another one.
     Released(&'a Pose),
 }
 

@@ -42,8 +42,8 @@ use sound::{Loops, longest};
 /// coordinates start from those of the wanted one.
 ///
 /// A robot with n cables for m free motions has m - n free coordinates; with a cable for every free motion
-/// no coordinate is free, and the one solution is that of [`crate::inverse`]. No cable is longer than [`LONGEST`]
-/// chords, unless loops are wanted, and none is below [`Robot::ground_z`].
+/// no coordinate is free, and the one solution is that of [`crate::inverse`]. No cable is longer than
+/// [`LONGEST`] chords, unless loops are wanted, and none is below [`Robot::ground_z`].
 ///
 /// ```
 /// use cdpr_robot::{Coordinate, Pose, Robot};

@@ -120,7 +120,8 @@ impl<'a> Point<'a> {
         each.fold(0.0, f64::max)
     }
 
-    /// Every cable after a change of its chord force, within its limits. `None` where a cable cannot be closed.
+    /// Every cable after a change of its chord force, within its limits. `None` where a cable cannot be
+    /// closed.
     pub(super) fn moved(&self, step: &[f64]) -> Option<Moved<'a>> {
         let moved = self.cables.iter().zip(step).map(|(cable, d)| {
             let to = cable.fixed.chord_force + d;

@@ -92,8 +92,8 @@ impl<R: Borrow<Robot>> Tracker<R> {
     ///
     /// Nothing is allocated where Newton's method ends near its prediction, at a stable equilibrium without
     /// folded cables (up to 16 cables, or 4 on x86-64 without AVX2). Otherwise the change
-    /// is made in steps, and where these strain a cable too much on the way or do not end, [`direct`] searches
-    /// near the current equilibrium.
+    /// is made in steps, and where these strain a cable too much on the way or do not end, [`direct`]
+    /// searches near the current equilibrium.
     ///
     /// # Errors
     /// [`StaticsError::BranchEnds`] where the platform falls on the way, and those of [`direct`]; the

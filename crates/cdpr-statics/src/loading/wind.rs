@@ -369,8 +369,8 @@ impl Blown {
         }
     }
 
-    /// What rounding and the integration along the cables leave of the balance [N]: stiff cables make much force
-    /// of a small error of their end.
+    /// What rounding and the integration along the cables leave of the balance [N]: stiff cables make much
+    /// force of a small error of their end.
     fn rounding(&self) -> f64 {
         let integration = self.cables.iter().map(|held| held.error * held.stiffness.norm());
         (BALANCED * self.forces()).max(integration.sum())

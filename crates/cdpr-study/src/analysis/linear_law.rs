@@ -54,8 +54,8 @@ fn norm(components: impl Iterator<Item = f64>) -> f64 {
     components.map(|component| component * component).sum::<f64>().sqrt()
 }
 
-/// Share of the variance of outputs that their linear law explains, Eq. (Ll2), at least 0. A pair has the value
-/// of the law and the output; `None` for outputs that do not vary.
+/// Share of the variance of outputs that their linear law explains, Eq. (Ll2), at least 0. A pair has the
+/// value of the law and the output; `None` for outputs that do not vary.
 pub fn explained(pairs: &[(f64, f64)]) -> Option<f64> {
     let variance = |of: &dyn Fn(&(f64, f64)) -> f64| {
         let mean = pairs.iter().map(of).sum::<f64>() / pairs.len() as f64;
@@ -71,7 +71,8 @@ pub fn explained(pairs: &[(f64, f64)]) -> Option<f64> {
 const DRAWN: usize = 256;
 const SEED: u64 = 1;
 
-/// Share of the variance of |dp| that the derivatives of the nominal robot explain, of robots of an error model.
+/// Share of the variance of |dp| that the derivatives of the nominal robot explain, of robots of an error
+/// model.
 pub fn explained_deflection(observer: &Observer, model: &ErrorModel, found: &Derivatives) -> Option<f64> {
     let inputs = model.inputs.len();
     let law = LinearLaw {

@@ -31,7 +31,7 @@ pub enum Output {
     Stiffness,
 }
 
-/// The vector whose indices (`vector_first`, `vector_total`, `bures`) a study has beside those of its output,
+/// The vector whose indices (`vector_first`, `vector_total`, `bures`) a study has with those of its output,
 /// where this is a length.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -43,7 +43,7 @@ pub enum VectorOutput {
     /// base frame times a length: how far a point at this distance from P moves.
     Pose {
         /// This length [m], such as the distance of the tool from P. It says how much a rotation counts
-        /// beside a displacement.
+        /// compared with a displacement.
         characteristic_length: f64,
     },
 }

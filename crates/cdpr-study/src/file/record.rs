@@ -1,5 +1,5 @@
-//! Load-elongation records as files: tables with a force, an elongation and a phase (`loading` or `unloading`),
-//! such as `force_n`, `elongation_mm`, `phase`. Further columns are of no importance.
+//! Load-elongation records as files: tables with a force, an elongation and a phase (`loading` or
+//! `unloading`), such as `force_n`, `elongation_mm`, `phase`. Further columns are of no importance.
 
 use crate::error::StudyError;
 use crate::fs::input::{check_table, read_bytes};

@@ -38,8 +38,8 @@ pub struct SensitivitySpec {
     /// the vector below, or of another output. 64 to 1048576, or 0 for none.
     #[serde(skip_serializing_if = "crate::file::is_default")]
     pub bures_observations: usize,
-    /// The vector of the indices of vectors and of Wasserstein and Bures: "displacement" without the field, or
-    /// {"pose": {"characteristic_length": L}} for displacement and rotation times L [m].
+    /// The vector of the indices of vectors and of Wasserstein and Bures: "displacement" without the field,
+    /// or {"pose": {"characteristic_length": L}} for displacement and rotation times L [m].
     #[serde(skip_serializing_if = "crate::file::is_default")]
     pub vector: VectorOutput,
     /// Whether an expansion is fitted to the derivatives as well, at the points where they are taken.

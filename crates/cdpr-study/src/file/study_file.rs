@@ -51,12 +51,12 @@ pub struct StudyFile {
     /// The force that shakes the platform; only where the output is "amplitude".
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amplitude: Option<AmplitudeSpec>,
-    /// Tensions that those of the inverse model come as near to as they can, in place of the robot's: one for
+    /// Tensions that those of the inverse model come as near to as they can, instead of the robot's: one for
     /// all cables [N], a list with one for each cable, or "mid", the middle of the limits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tension_reference: Option<TensionReference>,
-    /// Which tensions the inverse model chooses, in place of the robot's choice: "nearest" to the reference or of
-    /// "least_2_norm". The other norms jump from observation to observation.
+    /// Which tensions the inverse model chooses, instead of the robot's choice: "nearest" to the reference or
+    /// of "least_2_norm". The other norms jump from observation to observation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub distribution: Option<TensionDistribution>,
     /// Seed of all random numbers (replicates, bootstrap): the same seed gives the same numbers.
@@ -77,20 +77,20 @@ pub struct StudyFile {
     /// `frame_expansion`, `ice`, `creep`. Its deviation is added to the number in `weather`, which is zero
     /// where it is left out.
     ///
-    /// A model `{"file": "posterior.json"}` is that of a file beside this one: `cdpr-errors/1`, or an object
+    /// A model `{"file": "posterior.json"}` is that of a file next to this one: `cdpr-errors/1`, or an object
     /// as it would stand here.
     #[schemars(with = "IndexMap<String, ErrorModelForm>")]
     pub error_models: IndexMap<String, IndexMap<String, InputSpec>>,
     /// Samplings by name: all uncertain parameters at once, at points of Sobol's sequence.
     #[serde(default)]
     pub samplings: IndexMap<String, SamplingSpec>,
-    /// Measures of sensitivity, computed for every sampling and listed beside each other. Without this field
+    /// Measures of sensitivity, computed for every sampling and listed next to each other. Without this field
     /// none is computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sensitivity: Option<SensitivitySpec>,
     /// Groups of inputs by name, such as a cable or all exits: their measures of sensitivity are listed
-    /// beside those of single inputs. A group consists of inputs (`b1.x`, the name of a cause), of the inputs
-    /// of a point (`b1`), or of those of a group of parameters (`b`). Groups may overlap.
+    /// next to those of single inputs. A group consists of inputs (`b1.x`, the name of a cause), of the
+    /// inputs of a point (`b1`), or of those of a group of parameters (`b`). Groups may overlap.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub groups: IndexMap<String, Vec<String>>,
     /// Prices, from which `cdpr study tolerances` buys: of tolerances by the entries of the error models,
@@ -121,7 +121,7 @@ enum ErrorModelForm {
     Entries(IndexMap<String, InputSpec>),
 }
 
-/// The error model of a file beside the study.
+/// The error model of a file in the folder of the study.
 #[derive(JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(dead_code)]
@@ -160,7 +160,7 @@ pub struct PoseSpec {
     /// Unit quaternion (w, x, y, z). Without a rotation the platform is level.
     #[serde(default = "PoseSpec::level")]
     pub quaternion: [f64; 4],
-    /// Rotation by the angles roll, pitch, yaw [degrees] in place of a quaternion: R = Rz(yaw) Ry(pitch)
+    /// Rotation by the angles roll, pitch, yaw [degrees] instead of a quaternion: R = Rz(yaw) Ry(pitch)
     /// Rx(roll).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rpy_deg: Option<[f64; 3]>,
@@ -209,8 +209,8 @@ pub struct SamplingSpec {
     pub error_model: String,
     /// Number of observations at each pose.
     pub observations: usize,
-    /// Index of the first observation in Sobol's sequence; if left out 0, and 1 where inputs are correlated or
-    /// a law has no lower bound, which point 0 cannot draw.
+    /// Index of the first observation in Sobol's sequence; if left out 0, and 1 where inputs are correlated
+    /// or a law has no lower bound, which point 0 cannot draw.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first_index: Option<u32>,
     /// Correlations between inputs (a Gaussian copula); all others are independent. What needs independent

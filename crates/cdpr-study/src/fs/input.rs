@@ -1,5 +1,6 @@
-//! The one place where inputs are opened: regular files, pipes and the standard input, `-`, of a size that their
-//! kind can have. A pipe that nobody writes into is not waited for, and a device could feed a reader for ever.
+//! The one place where inputs are opened: regular files, pipes and the standard input, `-`, of a size that
+//! their kind can have. A pipe that nobody writes into is not waited for, and a device could feed a reader
+//! for ever.
 
 use crate::error::StudyError;
 use crate::kind::InputKind;

@@ -139,8 +139,8 @@ impl Chosen {
 ///
 /// # Errors
 /// [`StudyError::Invalid`] for a name that no column has, an output of words, an input that is an output, no
-/// input or no output; [`StudyError::Statistics`] with the column for outputs that are constant or too few, and
-/// with those of a vector that has no index, such as one at rows of a sequence.
+/// input or no output; [`StudyError::Statistics`] with the column for outputs that are constant or too few,
+/// and with those of a vector that has no index, such as one at rows of a sequence.
 pub fn analyse_table(table: &GivenTable, request: &TableRequest) -> Result<TableAnalysis, StudyError> {
     let chosen = Chosen::of(table, request)?;
     let Chosen { inputs, outputs, components, .. } = &chosen;
@@ -160,7 +160,8 @@ pub fn analyse_table(table: &GivenTable, request: &TableRequest) -> Result<Table
             data = data.with_levels(place, table.columns[input].labels.clone()).map_err(statistics)?;
         }
         let limit = request.limits.iter().find(|(name, _)| *name == column).map(|(_, limit)| *limit);
-        let analysis = Analyser { limit, ..request.analyser }.analyse(&data).map_err(statistics)?;
+        let analyser = Analyser { limit, outputs: outputs.len(), ..request.analyser };
+        let analysis = analyser.analyse(&data).map_err(statistics)?;
         Ok((column.clone(), analysis))
     };
     let chosen_names: HashSet<&str> =

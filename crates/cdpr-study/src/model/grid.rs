@@ -100,8 +100,8 @@ impl Grid {
         Self::within(robot, Axis::ALL.map(span))
     }
 
-    /// The positions between these ends along x, y and z. A missing end is that of the frame, the ranges of the
-    /// exit points; where all exit points are at about one height, heights begin at the floor of the base
+    /// The positions between these ends along x, y and z. A missing end is that of the frame, the ranges of
+    /// the exit points; where all exit points are at about one height, heights begin at the floor of the base
     /// frame, z = 0. Missing numbers of positions are [`GridSpan::IN_PLANE`] where the region is a plane or a
     /// line, else [`GridSpan::IN_BOX`]. A planar robot stays in its plane where nothing is said of that axis.
     ///

@@ -46,9 +46,9 @@ impl Study {
     /// The correlation matrix of a sampling, `None` where no inputs are correlated.
     ///
     /// # Errors
-    /// [`StudyError::Invalid`] for an unknown input, two equal ones, a pair that is listed twice, a value that
-    /// is no correlation, and values that contradict each other; [`StudyError::Statistics`] for a design that
-    /// starts at point 0.
+    /// [`StudyError::Invalid`] for an unknown input, two equal ones, a pair that is listed twice, a value
+    /// that is no correlation, and values that contradict each other; [`StudyError::Statistics`] for a design
+    /// that starts at point 0.
     pub(crate) fn correlation(
         &self,
         name: &str,

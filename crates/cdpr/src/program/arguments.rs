@@ -66,8 +66,8 @@ impl Threads {
     }
 }
 
-/// A name for results of a robot in the current folder: that of its file, and what they are of. A robot on the
-/// standard input is `robot`.
+/// A name for results of a robot in the current folder: that of its file, and what they are of. A robot on
+/// the standard input is `robot`.
 pub(crate) fn named_after(robot: &Path, of: &str) -> PathBuf {
     let stem = robot.file_stem().filter(|stem| *stem != "-");
     let stem = stem.map_or_else(|| "robot".into(), |stem| stem.to_string_lossy());

@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 
 /// Exit codes, as `cdpr --help` and docs/COMMANDS.md state them.
 pub(crate) const EXIT_CODES: &str = "Exit codes:
-  0    all that was asked for is done
+  0    all that was requested is done
   1    it cannot be done: a wrong or unreadable file, no answer, a place that
        cannot be written; the standard error says why
   2    wrong arguments; the standard error says why

@@ -191,7 +191,8 @@ pub(crate) fn few_held(summary: &WorkspaceSummary) -> Option<String> {
         .then(|| format!("fewer than half of the positions are held, {held} of {all}{ways}"))
 }
 
-/// Asks about where a platform was found to rest with given lengths [m], from a stated start and under a load.
+/// Asks about where a platform was found to rest with given lengths [m], from a stated start and under a
+/// load.
 pub(crate) fn about_rest(
     robot: &Robot,
     name: &str,

@@ -1,5 +1,5 @@
-//! Every option of every command, as the program's own `--help` lists them, with values that are too small, too
-//! large, negative, empty, or no numbers.
+//! Every option of every command, as the program's own `--help` lists them, with values that are too small,
+//! too large, negative, empty, or no numbers.
 
 use super::PROGRAM;
 use super::case::{Case, split};

@@ -136,8 +136,8 @@ impl<'a> History<'a> {
         self.poses.len() > 1
     }
 
-    /// The tensions at the platform that belong to those of the winches in the first row, if all are read: less
-    /// by what each cable weighs between its wheel and the platform.
+    /// The tensions at the platform that belong to those of the winches in the first row, if all are read:
+    /// less by what each cable weighs between its wheel and the platform.
     fn first_tensions(&self) -> Result<Option<Vec<f64>>, CalibrationError> {
         let n = self.robot.cables.len();
         let winch = |i: usize| self.rows[0].value(tension(i, CableEnd::Exit));

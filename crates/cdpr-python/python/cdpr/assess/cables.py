@@ -177,7 +177,7 @@ def hysteresis(
         load-elongation record of the cables, a file (CSV) or columns by their names as `modulus` takes
         it, length of its specimen [m] and its section [m^2], that of the cables if left out.
     law : path or dict, optional
-        File of a law (`cdpr-law/1`), or its content as a dictionary, in place of a record. Without
+        File of a law (`cdpr-law/1`), or its content as a dictionary, instead of a record. Without
         both, the cables have the laws of the robot file, by which they lose no energy.
     unloading : str, default 'turning-point'
         The part of the unloading curve that a cable follows, from the "turning-point" or that of the

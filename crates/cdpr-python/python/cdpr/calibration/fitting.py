@@ -46,7 +46,7 @@ class Calibrated(Table):
         "moved_by_prior_std", "The change in standard deviations before, (k,); NaN without a prior.", "parameters"
     )
     std = Column(
-        "std", "Standard deviation after, by data and priors, (k,); NaN where neither tell it.", "parameters"
+        "std", "Standard deviation after, by data and priors, (k,); NaN where both leave it open.", "parameters"
     )
     std_of_data = Column("std_of_data", "Standard deviation by the data alone, (k,).", "parameters")
     prior_std = Column("prior_std", "Standard deviation before, (k,).", "parameters")
@@ -77,7 +77,7 @@ class Calibrated(Table):
 
     @property
     def identifiable(self) -> NDArray[numpy.bool_]:
-        """Whether the data alone tell each parameter, (k,)."""
+        """Whether the data alone determine each parameter, (k,)."""
         import numpy
 
         return numpy.array([row["identifiable"] for row in self.content["parameters"]], dtype=bool)
@@ -146,7 +146,7 @@ def calibrate(
         Error model with the tolerances, the prior: its content as a dictionary, or a file; without one
         all anchor and exit points, mass and modulus are sought without prior.
     parameters : sequence of str, optional
-        Parameters or groups that are sought without prior, in place of a model.
+        Parameters or groups that are sought without prior, instead of a model.
     share : sequence of str, optional
         Parameters with one deviation in common: groups, "r", or lists, "r1+r2".
     unknown : dict of float or None, optional
@@ -165,7 +165,7 @@ def calibrate(
         starts of the search, 1 to 1000, and the seed of the random ones. Twice as many are made at
         most, until two agree; with one, nothing shows that its minimum is the least.
     only_identifiable : bool, default False
-        Keep the values of parameters that the data do not tell.
+        Keep the values of parameters that the data do not determine.
     folds : int, default 5
         Parts of the rows that are predicted by robots calibrated without them, 0 to 10000.
     overwrite : bool, default False

@@ -94,13 +94,13 @@ def identify(
     Examples
     --------
     >>> import cdpr
-    >>> told = identify(
+    >>> found = identify(
     ...     cdpr.Robot.from_file("cogiro"),
     ...     [[0, 0, 2], [1, 1, 2]],
     ...     uncertainty={"a": 0.002},  # [m]
     ...     noise={"position": 1e-4, "rotation": 1e-4},  # [m], [rad]
     ... )
-    >>> told.remaining.shape
+    >>> found.remaining.shape
     (24,)
     """
     settings = (_inputs.uncertainty(uncertainty), _inputs.numbers(noise), payload, _inputs.names(free))
@@ -140,7 +140,7 @@ class Plan:
 
     @property
     def poses(self) -> NDArray[numpy.float64]:
-        """The poses, the one that tells most first, (count, 7)."""
+        """The poses, the most informative one first, (count, 7)."""
         import numpy
 
         return numpy.array(self.content["poses"], dtype=float)

@@ -230,7 +230,7 @@ class _Sample(Design):
             Output of each row, (n,), NaN where the model failed; or several, a dictionary, a DataFrame or
             (n, m).
         gradients : object
-            Derivatives of the output by each input, (n, k), NaN where there are none; of several outputs
+            Derivatives of the output by each input, (n, k), NaN where they are unknown; of several outputs
             (n, m, k), or a dictionary.
         level : float, default 0.95
             Confidence of the intervals.

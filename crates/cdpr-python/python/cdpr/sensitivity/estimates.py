@@ -196,7 +196,7 @@ class Expansion(Table):
     mean = Value("mean", "Mean of the output.")
     variance = Value("variance", "Variance of the output.")
     degree = Value("degree", "Degree of the expansion.")
-    terms = Value("terms", "Number of terms beside the mean.")
+    terms = Value("terms", "Number of terms without the mean.")
     derivatives = Value("derivatives", "Whether gradients took part in the fit.")
     leave_one_out = Value("leave_one_out", "Leave-one-out error, as a share of the variance of the outputs.")
     observed = Value("observed", "Number of outputs.")

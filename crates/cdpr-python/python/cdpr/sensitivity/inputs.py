@@ -92,7 +92,7 @@ def laws_of_problem(problem: Mapping[str, Any]) -> dict[str, Law]:
 
 
 def groups_of_problem(problem: Mapping[str, Any]) -> Optional[dict[str, list[str]]]:
-    """Returns the names of the inputs in each of SALib's groups, None where there are none."""
+    """Returns the names of the inputs in each of SALib's groups, None where it has no groups."""
     groups = problem.get("groups")
     if groups is None or list(groups) == list(problem["names"]):
         return None

@@ -78,7 +78,7 @@ impl Robot {
     /// force, moment : array_like, optional
     ///     On the platform in the base frame, about P [N, N m], (3,).
     /// wrenches : array_like, optional
-    ///     Wrenches that may act beside the load, fx to mz about P [N, N m], (k, 6); all poses have the
+    ///     Wrenches that may act with the load, fx to mz about P [N, N m], (k, 6); all poses have the
     ///     same.
     /// tilt : int, default 0
     ///     Number of azimuths, from x to y, towards which the platform is tilted as far as tensions within

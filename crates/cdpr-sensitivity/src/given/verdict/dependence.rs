@@ -2,13 +2,20 @@
 //!
 //! An input that is found may have no effect of its own if another one, found or not, depends on it: for
 //! y = a - b, an input that follows a - b is found first. Each found input is therefore tested against all
-//! others, at [`FALSE_FINDINGS`] over their number: at least as sensitive as the verdict, which corrects for
-//! more tests.
+//! others. Its tests, those of all found inputs and those of all outputs of a table are corrected together
+//! (Bonferroni), so that of independent inputs any has such a doubt in one table of twenty at most:
 //!
-//! A dependence is stated where it is clear to 1 % for all pairs of a table, and is possible otherwise: of
-//! independent inputs each found one has a possible dependence in one table of twenty.
+//! - 1 % for a dependence that is clear for all pairs of the table: it is stated;
+//! - 3 % for one that is possible ([`FALSE_DOUBTS`]). One with the probability p explains the finding of an
+//!   input only if this is about as clear, because an input acts through another one by less than they depend
+//!   on each other. With the p* (Ve1) of the input it is a doubt where
 //!
-//! Several others together may explain it where none does alone ([`joint`](super::joint)), at 1 %.
+//! ```text
+//! log p* > 10 log p                                                                  (Dp3)
+//! ```
+//!
+//! - 1 % for several others that explain the input together where none does alone
+//!   ([`joint`](super::joint)), which is (Dp3), too.
 //!
 //! Two coordinates of a [`sequence`](super::sequence) are independent by construction, but make a pattern. An
 //! input without an effect is found for its pattern with a cause, but less clearly than the cause. With v the
@@ -35,13 +42,17 @@ use crate::parallel::*;
 /// Probability of one or more false findings in a table.
 pub(crate) const FALSE_FINDINGS: f64 = 0.05;
 
-/// Probability that independent inputs are said to depend on each other.
+/// Probability that independent inputs are said to depend on each other, or to be explained by several.
 const FALSE_PAIRS: f64 = 0.01;
+
+/// Probability that independent inputs which are found in a table seem to depend on others.
+const FALSE_DOUBTS: f64 = 0.03;
 
 /// How many times more clearly a coordinate must be found (Dp1).
 const CLEARER: f64 = 1e3;
 
-/// How many times a share must be that of a pattern (Dp2): several patterns may add up.
+/// How many times a share must be that of a pattern (Dp2), or evidence that of a dependence (Dp3): several
+/// may add up.
 const GREATER: f64 = 10.0;
 
 /// Parts of a coordinate that says something of the output: rows of each, and their largest number.
@@ -59,6 +70,8 @@ pub(crate) struct Inputs<'a> {
     output: Option<Scores>,
     products: Vec<Product>,
     joint: Vec<Option<Joint>>,
+    /// Number of outputs of the table.
+    outputs: usize,
 }
 
 /// The product of two coordinates that is found in the output.
@@ -79,11 +92,18 @@ pub(crate) struct Companions {
 }
 
 impl<'a> Inputs<'a> {
-    pub(crate) fn new(tested: &'a [Tested<'a>], coordinate: &'a [bool], outputs: &[f64]) -> Self {
-        let output = Scores::of_ranks(outputs);
+    /// Inputs with the values of an output, of a table with `outputs` of them.
+    pub(crate) fn new(
+        tested: &'a [Tested<'a>],
+        coordinate: &'a [bool],
+        values: &[f64],
+        outputs: usize,
+    ) -> Self {
+        let output = Scores::of_ranks(values);
         let scores: Vec<Option<&Scores>> = tested.iter().map(|of| of.scores.as_ref()).collect();
-        let joint = joint(&scores, outputs.len());
-        Self { tested, coordinate, products: products(tested, coordinate, output.as_ref()), output, joint }
+        let joint = joint(&scores, values.len());
+        let products = products(tested, coordinate, output.as_ref());
+        Self { tested, coordinate, products, output, joint, outputs }
     }
 
     fn are_coordinates(&self, one: usize, other: usize) -> bool {
@@ -98,17 +118,24 @@ impl<'a> Inputs<'a> {
             |other: usize| found.iter().find(|(input, _)| *input == other).map(|of| of.1[0].p_value);
         let in_output: Vec<Option<f64>> = (0..inputs).map(clearest).collect();
         let all = found.len() * inputs <= MOST_OF_PAIRS * MOST_OF_PAIRS;
+        let pairs = (inputs * inputs.saturating_sub(1)) as f64 / 2.0;
+        let tested = (found.len() * self.outputs) as f64;
         let of_input = |(input, tests): &(usize, Vec<Test>)| {
             let is_looked_at = |other: &usize| other != input && (all || in_output[*other].is_some());
             let others: Vec<usize> = (0..inputs).filter(is_looked_at).collect();
             let count = others.len() as f64;
-            let depends = |other: usize| match self.are_coordinates(*input, other) {
-                true => self.are_copies(*input, other),
-                false => self.p_value(*input, other) * count < FALSE_FINDINGS,
+            let may_explain = |p: f64| tests[0].p_value.ln() > GREATER * p.ln();
+            let depends = |other: usize| {
+                if self.are_coordinates(*input, other) {
+                    return self.are_copies(*input, other);
+                }
+                let p = self.p_value(*input, other);
+                p * pairs < FALSE_PAIRS || (p * count * tested < FALSE_DOUBTS && may_explain(p))
             };
             let mut inputs: Vec<usize> = others.iter().copied().filter(|other| depends(*other)).collect();
             if inputs.is_empty() {
-                inputs.extend(self.explained(*input, FALSE_PAIRS));
+                let joint = self.explained(*input, FALSE_PAIRS / tested, may_explain);
+                inputs.extend(joint);
             }
             let patterns = |test: &Test| match self.coordinate[*input] {
                 true => self.patterns(*input, test, &in_output),
@@ -141,16 +168,19 @@ impl<'a> Inputs<'a> {
         let pairs: Vec<[usize; 2]> = found.into_iter().map(|(pair, _)| pair).collect();
         let in_none = |input: &usize| !pairs.iter().any(|pair| pair.contains(input));
         let of_several = |input: usize| {
-            let others = self.explained(input, FALSE_PAIRS / count as f64);
+            let others = self.explained(input, FALSE_PAIRS / count as f64, |_| true);
             others.iter().map(move |&other| [input.min(other), input.max(other)])
         };
         let several = (0..count).filter(in_none).flat_map(of_several);
         pairs.iter().copied().chain(several).collect()
     }
 
-    /// Others that explain an input together, at a level; none of a coordinate of a sequence.
-    fn explained(&self, input: usize, level: f64) -> &[usize] {
-        let joint = self.joint[input].as_ref().filter(|of| !self.coordinate[input] && of.p_value < level);
+    /// Others that explain an input together, at a level and with a p that counts; none of a coordinate of a
+    /// sequence.
+    fn explained(&self, input: usize, level: f64, counts: impl Fn(f64) -> bool) -> &[usize] {
+        let joint = self.joint[input]
+            .as_ref()
+            .filter(|of| !self.coordinate[input] && of.p_value < level && counts(of.p_value));
         joint.map_or(&[], |of| &of.others)
     }
 

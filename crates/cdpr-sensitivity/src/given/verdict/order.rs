@@ -86,9 +86,9 @@ pub(crate) fn in_order(
     observed.columns.iter().zip(kinds).zip(coordinate).map(of_input).collect()
 }
 
-/// Whether the means of the row numbers at the levels of an input, or in ten parts of its values, have more than
-/// half of the variance of these, or of their squares from the middle: a steady drift, or one that turns once,
-/// is then an effect of the input for the most part.
+/// Whether the means of the row numbers at the levels of an input, or in ten parts of its values, have more
+/// than half of the variance of these, or of their squares from the middle: a steady drift, or one that turns
+/// once, is then an effect of the input for the most part.
 fn follows(column: &[f64]) -> bool {
     const PARTS: usize = 10;
     let (levels, count) = codes(column);

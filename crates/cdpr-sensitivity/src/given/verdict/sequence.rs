@@ -34,8 +34,8 @@ pub(crate) fn coordinates(rows: &[&[f64]], drawn: &[Vec<f64>], kinds: &[Kind], s
     if count > 1 { found } else { vec![false; kinds.len()] }
 }
 
-/// Whether two columns fill the cells of a square of ranks, up to a correlation: chi-square over the rows is at
-/// most that of random points and ρ²/(1 - ρ²), which is more than a normal copula has in so few cells.
+/// Whether two columns fill the cells of a square of ranks, up to a correlation: chi-square over the rows is
+/// at most that of random points and ρ²/(1 - ρ²), which is more than a normal copula has in so few cells.
 fn fill_a_square(one: &[f64], other: &[f64]) -> bool {
     let [one, other] = [one, other].map(ranks);
     let n = one.len() as f64;

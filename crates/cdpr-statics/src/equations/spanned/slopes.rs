@@ -70,8 +70,8 @@ impl<'a> SpannedCable<'a, f64> {
     }
 }
 
-/// Derivatives of a vector in the frame whose axes are given as columns, in the base frame: so is the direction
-/// in which the cable enters its pulley.
+/// Derivatives of a vector in the frame whose axes are given as columns, in the base frame: so is the
+/// direction in which the cable enters its pulley.
 fn turned(axes: &Matrix3<f64>, slopes: &PropertySlopes) -> PropertySlopes {
     let mut turned = axes * slopes;
     let mut per_axis = turned.fixed_columns_mut::<3>(Property::Axis as usize);

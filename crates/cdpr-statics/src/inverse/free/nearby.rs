@@ -1,7 +1,7 @@
 //! The rest of a robot that differs a little from one whose rest is known.
 //!
-//! Newton's steps lead to it from the chord forces and coordinates of the known rest, each of which halves the
-//! residual at least.
+//! Newton's steps lead to it from the chord forces and coordinates of the known rest, each of which halves
+//! the residual at least.
 
 use super::search::{Outcome, Point, ROUNDING, SOLVED, Search, Unknowns, newton_step};
 use super::solution::FreeSolution;

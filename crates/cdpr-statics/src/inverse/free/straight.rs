@@ -6,9 +6,9 @@
 //! sum [u_i; s_i x u_i] t_i + w_ex = 0            n tensions t_i of either sign, m - n coordinates q     (I9)
 //! ```
 //!
-//! Its slopes are (I8) with `∂(u_i t_i)/∂r_i = t_i (u_i u_iᵀ - 1)/c_i` over a chord c_i. Steps of Levenberg and
-//! Marquardt in (t, q) start from many places. A root with a negative tension is one with a cable that would
-//! have to push: it is kept to say so.
+//! Its slopes are (I8) with `∂(u_i t_i)/∂r_i = t_i (u_i u_iᵀ - 1)/c_i` over a chord c_i. Steps of Levenberg
+//! and Marquardt in (t, q) start from many places. A root with a negative tension is one with a cable that
+//! would have to push: it is kept to say so.
 
 use super::search::{SAME, Search, Unknowns};
 use crate::inverse::cable::Pull;

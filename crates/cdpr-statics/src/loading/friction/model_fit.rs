@@ -1,8 +1,8 @@
 //! The friction of pulleys from whatever a model of them predicts: it decides itself which wheels slip.
 //!
-//! Damped Gauss-Newton steps for (F5) with 0 ≤ μ ≤ 1 and 0 ≤ c ≤ 0.5. A wheel begins to slip or to stick where
-//! the coefficients change: the residuals are continuous there and their derivatives are not, and the best of
-//! several starts is taken.
+//! Damped Gauss-Newton steps for (F5) with 0 ≤ μ ≤ 1 and 0 ≤ c ≤ 0.5. A wheel begins to slip or to stick
+//! where the coefficients change: the residuals are continuous there and their derivatives are not, and the
+//! best of several starts is taken.
 
 use super::fit::{FrictionFit, SEPARABLE, concluded};
 use super::wheel::PulleyFriction;

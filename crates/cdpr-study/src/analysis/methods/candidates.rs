@@ -11,8 +11,8 @@ use cdpr_sensitivity::{
     sobol_indices,
 };
 
-/// Level of each input for the confidence of all together, by derivatives and by Sobol' indices where the study
-/// has both.
+/// Level of each input for the confidence of all together, by derivatives and by Sobol' indices where the
+/// study has both.
 fn level(run: &Run) -> f64 {
     let bases = if run.spec.saltelli_blocks > 0 { 2 } else { 1 };
     joint_level(run.settings.confidence, run.inputs().len() * bases)
@@ -126,8 +126,8 @@ pub(super) fn of_ranks(inputs: &[InputMeasures], summary: &MethodSummary) -> Opt
 
 /// What the greatest squared coefficient of a regression on `inputs` inputs with `rows` rows is by chance
 /// alone, at most, in nineteen of twenty cases. A coefficient has the variance (1 - R²)/(n - k - 1) of
-/// independent inputs, times (n - 1)/(n - k) for what the columns of so few rows have in common; the tail of a normal law is below
-/// exp(-z²/2), and k of them are one twentieth together.
+/// independent inputs, times (n - 1)/(n - k) for what the columns of so few rows have in common; the tail of
+/// a normal law is below exp(-z²/2), and k of them are one twentieth together.
 fn share_by_chance(inputs: usize, rows: usize, r_squared: f64) -> f64 {
     if rows <= inputs + 1 {
         return f64::INFINITY;

@@ -14,8 +14,8 @@
 //! ```
 //!
 //! - (Rc1): T_g is the index of the expansion g, which has the share 1 - e of the output's variance. What an
-//!   input takes part in is a projection of the output, √T its norm, and the rest of the output, which g lacks,
-//!   has the norm √e.
+//!   input takes part in is a projection of the output, √T its norm, and the rest of the output, which g
+//!   lacks, has the norm √e.
 //! - (Rc2): by C. E. Bonferroni: a verdict on many inputs is as certain as one on a single input.
 //!
 //! Of derivatives and Sobol' indices the one that settles more inputs is recommended, derivatives where both

@@ -101,8 +101,8 @@ impl Printing {
         self.out.as_deref().filter(|path| is_csv(path) && self.format.is_none())
     }
 
-    /// Prints an answer that has a table of numbers: as CSV, or in a file for a table, the table alone; in JSON
-    /// `whole` has its rows.
+    /// Prints an answer that has a table of numbers: as CSV, or in a file for a table, the table alone; in
+    /// JSON `whole` has its rows.
     pub(crate) fn with_table<T: Serialize>(
         &self,
         columns: &[String],

@@ -15,8 +15,8 @@ use std::path::{Path, PathBuf};
 /// The record and its specimen.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
-    /// Record of a whole loop: a table with the columns force_n, elongation_mm, phase (loading and unloading); -
-    /// for the standard input.
+    /// Record of a whole loop: a table with the columns force_n, elongation_mm, phase (loading and
+    /// unloading); - for the standard input.
     record: PathBuf,
     /// Breaking force [N]; ranges of load are percentages of it.
     #[arg(long, value_parser = number, allow_hyphen_values = true)]
@@ -32,8 +32,8 @@ pub(crate) struct Settings {
     ranges: Vec<(f64, f64)>,
     /// Errors in SI units: of each force [N] and elongation [m], of length [m] and section [m²].
     ///
-    /// Independent errors give a modulus one standard deviation where these are standard deviations. `greatest`
-    /// is where all of them add up.
+    /// Independent errors give a modulus one standard deviation where these are standard deviations.
+    /// `greatest` is where all of them add up.
     #[arg(long, value_parser = named, default_value = "force=1,elongation=3e-5,length=0,section=0")]
     errors: Named,
     /// File for a figure of the loop (.svg, .pdf, .png); behind its name: width=MM, untitled.

@@ -76,7 +76,8 @@ pub(crate) struct Known {
 }
 
 impl Known {
-    /// A calibration without poses of a robot whose parameters are uncertain as stated, correlations included.
+    /// A calibration without poses of a robot whose parameters are uncertain as stated, correlations
+    /// included.
     pub(super) fn calibration(
         &self,
         robot: &Robot,

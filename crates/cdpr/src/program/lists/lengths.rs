@@ -93,8 +93,8 @@ fn all_or_none(table: &Table, columns: &[(&Column, f64)]) -> Result<Vec<Vec<f64>
     (0..table.rows()).map(line).collect()
 }
 
-/// Lengths over time from a table: the time `t_s`, and `length_1_m` and so on for each cable; other columns are
-/// further ones.
+/// Lengths over time from a table: the time `t_s`, and `length_1_m` and so on for each cable; other columns
+/// are further ones.
 pub(crate) fn winch_file(path: &Path, cables: usize) -> Result<WinchLengths, ProgramError> {
     let rows = listed(OPTION, (path, read_bytes(path, InputKind::Poses)?), "a time and lengths", |table| {
         let names = ["t_s".to_owned()].into_iter().chain((1..=cables).map(|i| format!("length_{i}_m")));

@@ -25,8 +25,8 @@ use std::path::PathBuf;
 pub(crate) struct Settings {
     #[command(flatten)]
     robot: RobotArgument,
-    /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m]; or a table with a set of them
-    /// on each line, length_1_m to length_n_m.
+    /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m]; or a table with a set of
+    /// them on each line, length_1_m to length_n_m.
     ///
     /// Poses of the table, x_m,y_m,z_m and so on as `inverse` has them, are where the searches start. The
     /// answers are lines of CSV, or of JSON with `--format json`, with all columns of the table.

@@ -21,10 +21,11 @@ pub(crate) struct Settings {
     #[command(flatten)]
     free: FreeArguments,
     /// path: the poses of the file are a path, along which lengths change steadily; `jump` says where they
-    /// cannot. change=NEWTONS: no tension of a path changes by more from one pose to the next. loops: with free coordinates also solutions whose cables are of any length.
+    /// cannot. change=NEWTONS: no tension of a path changes by more from one pose to the next. loops: with
+    /// free coordinates also solutions whose cables are of any length.
     ///
-    /// Several sets of tensions may be the best of all near them. Each pose of a path then keeps to the one of
-    /// the pose before, as long as it exists between them, even where another becomes better.
+    /// Several sets of tensions may be the best of all near them. Each pose of a path then keeps to the one
+    /// of the pose before, as long as it exists between them, even where another becomes better.
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
 }

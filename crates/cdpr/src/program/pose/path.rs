@@ -28,14 +28,14 @@ pub(crate) struct Settings {
     /// model it has bands of two standard deviations.
     #[arg(long, value_name = "FILE", value_parser = figure)]
     figure: Option<FigureArgument>,
-    /// A move along the poses instead, as set points of the winches over time: seconds=S, its duration [s], and
-    /// profile=trapezoid, cosine or polynomial, shaper=zv, zvd or ei, modes=N, feed-forward, rate=HZ.
+    /// A move along the poses instead, as set points of the winches over time: seconds=S, its duration [s],
+    /// and profile=trapezoid, cosine or polynomial, shaper=zv, zvd or ei, modes=N, feed-forward, rate=HZ.
     ///
     /// The shaper is for the N motions that swing most (2), `damping=S` their damping as in `simulate`; its
     /// duration is part of the seconds. `feed-forward` accounts for the inertia of platform and cables,
-    /// `feed-forward=platform` without the cables; its profile is the polynomial. `residual=S` simulates the move
-    /// and what swings for S seconds after it (two periods), with and without shaper and feed-forward; with
-    /// --uncertainty also of robots that are drawn, `robots=N` (100) from `seed=N`.
+    /// `feed-forward=platform` without the cables; its profile is the polynomial. `residual=S` simulates the
+    /// move and what swings for S seconds after it (two periods), with and without shaper and feed-forward;
+    /// with --uncertainty also of robots that are drawn, `robots=N` (100) from `seed=N`.
     #[arg(long, value_name = "NAMES", value_parser = arguments::with)]
     with: Option<With>,
 }

@@ -39,8 +39,8 @@ pub(crate) struct Settings {
     number: Option<usize>,
     /// damping=TAU and drag=RATE, what damps the cables; 2e-4 s and none if left out.
     ///
-    /// A cable that is stretched at a rate dε/dt bears EA TAU dε/dt more [s]. The air takes RATE times the mass
-    /// per length for each m/s [1/s].
+    /// A cable that is stretched at a rate dε/dt bears EA TAU dε/dt more [s]. The air takes RATE times the
+    /// mass per length for each m/s [1/s].
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
     /// Point of the platform that is shaken and that moves: x,y,z in its frame [m]; P if left out.

@@ -34,14 +34,14 @@ pub(crate) struct Settings {
     #[command(flatten)]
     free: FreeArguments,
     /// pairs: break every pair of cables, too. swing=SECONDS: follow the motion after each break for so long,
-    /// without damping. wind=SPEED: wind on the cables, all of them whole, from any horizontal direction; ice= and
-    /// others. permanent=, variable=, resistance=, accidental=: partial factors of a norm.
+    /// without damping. wind=SPEED: wind on the cables, all of them whole, from any horizontal direction;
+    /// ice= and others. permanent=, variable=, resistance=, accidental=: partial factors of a norm.
     ///
     /// permanent multiplies the weight of platform and cables, variable the payload, force, moment and the
     /// pressure of the wind; resistance divides the breaking forces; accidental multiplies all loads where a
     /// cable is broken. accidental=1:0.5 has one factor for weights and one for the other loads,
-    /// resistance=1.5:1.2 a second one for broken cables. All four are given together; none has a value of its
-    /// own. With one pose, `--format csv` has a row for each case.
+    /// resistance=1.5:1.2 a second one for broken cables. All four are given together; none has a value of
+    /// its own. With one pose, `--format csv` has a row for each case.
     ///
     /// wind=VX:VY:VZ: wind of one velocity [m/s]. ice=METRES, warmer=KELVIN with cable_expansion=,
     /// frame_expansion=, creep=STRAIN, wind_profile=Z0:ZREF: as those of `deflection`. All cables are whole
@@ -85,8 +85,8 @@ struct Answer {
     /// Greatest tension allowed, and breaking force of each cable, `null` where it is not known [N].
     greatest_allowed: Vec<f64>,
     breaking_forces: Vec<Option<f64>>,
-    /// The greatest tension before the break, and the least breaking force over greatest tension; `null` where
-    /// a breaking force is not known.
+    /// The greatest tension before the break, and the least breaking force over greatest tension; `null`
+    /// where a breaking force is not known.
     greatest_tension: Greatest,
     safety_factor: Option<f64>,
     broken: Vec<Case>,

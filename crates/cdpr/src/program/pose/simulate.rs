@@ -37,9 +37,9 @@ pub(crate) struct Settings {
     pose: PoseArguments,
     #[command(flatten)]
     free: FreeArguments,
-    /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m], or a table of them over time,
-    /// as `path --with seconds=1` writes it: t_s,length_1_m,..,length_n_m. The search for their pose starts
-    /// from --pose, or where straight cables would hold a point.
+    /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m], or a table of them over
+    /// time, as `path --with seconds=1` writes it: t_s,length_1_m,..,length_n_m. The search for their pose
+    /// starts from --pose, or where straight cables would hold a point.
     #[arg(long, value_name = "LENGTHS", value_parser = arguments::lengths, allow_hyphen_values = true)]
     lengths: Option<Lengths>,
     #[command(flatten)]
@@ -70,7 +70,8 @@ pub(crate) struct Settings {
     /// tolerance=M, the error of a step [m].
     #[arg(long, value_name = "NAMES", value_parser = arguments::with)]
     with: Option<With>,
-    /// File for a figure of motion and tensions over time (.svg, .pdf, .png); behind its name: width=MM, untitled.
+    /// File for a figure of motion and tensions over time (.svg, .pdf, .png); behind its name: width=MM,
+    /// untitled.
     #[arg(long, value_name = "FILE", value_parser = arguments::figure)]
     figure: Option<FigureArgument>,
     #[command(flatten)]

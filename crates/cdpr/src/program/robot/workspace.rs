@@ -55,16 +55,16 @@ pub(crate) struct Settings {
     ///
     /// capacity: greatest payload and margins of the tensions, for each --wrench on top of the load.
     /// distances: of the nearest two cables, and of the cable nearest to the platform. tilt: how far the
-    /// platform may tilt, to 0.1 degrees, in the worst of N directions (4). amplitude: the largest one in a band
-    /// of frequencies, or at one (amplitude=HZ), by a force at P or --marker and by a winch; damping=TAU and
-    /// drag=RATE damp the cables, as those of `response` (2e-4 s, none). boundary: of the positions that are
-    /// held under the load with the tensions distributed again, or boundary=kept, with the lengths kept:
+    /// platform may tilt, to 0.1 degrees, in the worst of N directions (4). amplitude: the largest one in a
+    /// band of frequencies, or at one (amplitude=HZ), by a force at P or --marker and by a winch; damping=TAU
+    /// and drag=RATE damp the cables, as those of `response` (2e-4 s, none). boundary: of the positions that
+    /// are held under the load with the tensions distributed again, or boundary=kept, with the lengths kept:
     /// polygons in a plane, a mesh in a box (STL). layers: of a box that are drawn, spread evenly (12); 0
-    /// draws nothing. wind=SPEED: how far wind on the cables and load displace the platform, the lengths kept,
-    /// and the worst of all horizontal directions; wind=VX:VY:VZ: wind of one velocity; ice, creep and the
-    /// others as those of `deflection`. breaks: the greatest tension over breaking force, with all cables, each
-    /// of them broken alone and in the wind, and how far a break moves the platform; with permanent= and the
-    /// other partial factors of `safety` the utilization.
+    /// draws nothing. wind=SPEED: how far wind on the cables and load displace the platform, the lengths
+    /// kept, and the worst of all horizontal directions; wind=VX:VY:VZ: wind of one velocity; ice, creep and
+    /// the others as those of `deflection`. breaks: the greatest tension over breaking force, with all
+    /// cables, each of them broken alone and in the wind, and how far a break moves the platform; with
+    /// permanent= and the other partial factors of `safety` the utilization.
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
     /// Point of the platform whose amplitude is mapped: x,y,z in its frame [m]; P if left out.

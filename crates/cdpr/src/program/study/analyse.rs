@@ -26,12 +26,12 @@ pub(crate) struct Settings {
     /// (index of Wasserstein and Bures).
     #[arg(long, value_name = "COLUMN", value_delimiter = ',')]
     vector: Vec<String>,
-    /// What an output is to satisfy, such as `magnitude_mm<1.4`: `<`, `<=`, `>` or `>=`. The analysis then says
-    /// which inputs make it fail.
+    /// What an output is to satisfy, such as `magnitude_mm<1.4`: `<`, `<=`, `>` or `>=`. The analysis then
+    /// says which inputs make it fail.
     #[arg(long = "limit", value_name = "COLUMN<VALUE", value_parser = arguments::limit)]
     limits: Vec<(String, OutputLimit)>,
-    /// Settings: confidence=SHARE of the intervals (0.95); hsic-rows=N, the rows that HSIC takes at most (2000),
-    /// whose square its time grows with.
+    /// Settings: confidence=SHARE of the intervals (0.95); hsic-rows=N, the rows that HSIC takes at most
+    /// (2000), whose square its time grows with.
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
     /// Seed of all that is random.

@@ -9,8 +9,8 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::path::Path;
 
-/// A direct problem, also as a file has it. The fields behind `certify` are those of an answer of `inverse` or
-/// `deflection`, which are of no importance here.
+/// A direct problem, also as a file has it. The fields behind `certify` are those of an answer of `inverse`
+/// or `deflection`, which are of no importance here.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct Case {

@@ -63,8 +63,8 @@ pub(super) struct After {
     watched_s: f64,
     /// Greatest distance of P from its rest.
     amplitude_m: f64,
-    /// The same of the move without shaper and feed-forward, and the ratio of both; `null` where the motion is
-    /// below `difference_m`.
+    /// The same of the move without shaper and feed-forward, and the ratio of both; `null` where the motion
+    /// is below `difference_m`.
     unshaped_amplitude_m: f64,
     ratio: Option<f64>,
     /// Greatest distance from the way, with and without.
