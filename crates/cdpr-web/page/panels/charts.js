@@ -118,7 +118,8 @@ function mostWords({ parts: [top], winner, explained }, name, soFar) {
   return winner
     ? `The tolerance that matters most here${soFar}: ${name(top.entry)}, with ${share} of what the effects ` +
         `explain, ${of} of the variance.`
-    : `The effects explain ${of} of the variance${soFar}: of that ${name(top.entry)} has most, ${share}.`;
+    : `What matters most is not certain here${soFar}: the effects explain ${of} of the variance; of that ` +
+        `${name(top.entry)} has most, ${share}.`;
 }
 
 // Robots that have no deflection, where they are many.
