@@ -228,7 +228,7 @@ fn a_study_without_a_result_or_with_a_nominal_robot_that_breaks_ends_with_code_3
     ended(&bench, 3, "question: mechanical is the result of 0 observations: 20 of 20 failed (100 %)");
     let bench = few(&|_| ());
     bench.change("robot.json", |robot| robot["cable"]["breaking_force"] = json!(730.0));
-    ended(&bench, 3, "warning: mechanical, nominal robot with the payload: cable 3: its tension of");
+    ended(&bench, 3, "warning: mechanical, nominal robot with the payload: cables 3, 6: tension up to");
 }
 
 #[cfg(unix)]
@@ -305,7 +305,7 @@ fn files_of_other_programs_are_imported_questioned_or_refused_at_once() {
     assert_eq!((code, robot.contains("\"max\": 900")), (0, true), "{robot}");
     // The answer is above the notes.
     let (_, printed, _) = import(&[&nested], &[&cable[..], &["--out", "nested.json"]].concat());
-    assert!(printed.starts_with("nested.json: ") && printed.contains("\nno place for: "), "{printed}");
+    assert!(printed.starts_with("nested.json: ") && printed.contains("\nno place for:"), "{printed}");
     let two = format!("{}---\nlimits: {{min: 3}}\n", std::fs::read_to_string(&nested).unwrap());
     std::fs::write(bench.path("two.yaml"), two).unwrap();
     let (code, _, said) = import(&["two.yaml"], &cable);
