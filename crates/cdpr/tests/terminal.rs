@@ -154,7 +154,7 @@ fn a_run_that_is_to_outlive_its_terminal_ends_by_itself() {
     assert!(out.join("summary.json").exists());
 }
 
-/// A reader has the sentence first and a table of few columns; programs have all columns and the sentence apart.
+/// A reader has the sentence first and a table of few columns; programs have all columns, the sentence apart.
 #[test]
 fn many_poses_are_a_sentence_and_a_short_table_in_a_terminal_and_all_columns_in_a_pipe_and_a_file() {
     let folder = tempfile::tempdir().unwrap();

@@ -11,7 +11,7 @@ use crate::program::output::{Ending, patiently, print_apart, print_sentence, pro
 use crate::program::questions;
 use crate::program::said::{Said, is_said};
 use along::Along;
-use cdpr_robot::{Pose, Robot, shown};
+use cdpr_robot::{Pose, Robot, broken, shown};
 use cdpr_statics::StaticsError;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
@@ -197,7 +197,7 @@ impl RobotAtPose {
             print_apart(&along.sentence());
         } else if is_said(Said::Usual) {
             // The standard output has the rows, which programs read.
-            eprintln!("{}", along.sentence());
+            broken(&along.sentence()).iter().for_each(|line| eprintln!("{line}"));
         }
         Ok(ending)
     }
