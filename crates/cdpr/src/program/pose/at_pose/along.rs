@@ -97,7 +97,11 @@ impl Along {
                 if self.reason.is_none() {
                     self.reason = Some(format!("{}: {}.", self.place(number), failure.message));
                 }
-                (failure.kind.replace('_', " "), Vec::new())
+                let status = match failure.kind {
+                    "infeasible_tension" => "no tensions".to_owned(),
+                    kind => kind.replace('_', " "),
+                };
+                (status, Vec::new())
             }
         };
         if self.rows.len() < SHOWN {
