@@ -154,6 +154,27 @@ fn laws_that_caspr_has_no_place_for_are_named() {
 }
 
 #[test]
+fn springs_of_caspr_are_as_stiff_as_the_laws_of_the_cables_at_the_pose() {
+    let robot = robot("caroca-law");
+    let pose = rest(&robot).unwrap();
+    let exported = export(&robot, &pose, Target::Caspr).unwrap();
+    let cables = &exported.files[1].1;
+    let stiffness = cables.split("<K>").skip(1).map(|rest| rest.split('<').next().unwrap().parse().unwrap());
+    let stiffness: Vec<f64> = stiffness.collect();
+    let found = inverse(&robot, &pose, &Load::none()).unwrap();
+    for (i, (spring, tension)) in stiffness.iter().zip(&found.tensions).enumerate() {
+        // The slope of the strain over the tension, by a difference within a segment of the law.
+        let cable = &robot.cables[i].properties;
+        let law = cable.law.as_ref().unwrap();
+        let strain = |tension: f64| law.scaled_strain(tension) / cable.axial_stiffness();
+        let slope = (strain(tension + 1e-3) - strain(tension - 1e-3)) / 2e-3;
+        assert!((spring * slope - 1.0).abs() < 1e-6, "cable {}: {spring} N", i + 1);
+    }
+    let plain = robot.cables[0].properties.axial_stiffness();
+    assert!(stiffness.iter().any(|spring| (spring / plain - 1.0).abs() > 0.05), "{stiffness:?}");
+}
+
+#[test]
 fn the_cable_that_is_given_goes_first() {
     let (robot, pose) = (robot("cogiro"), Pose::at(0.0, 0.0, 2.0));
     let properties = cdpr_robot::CableProperties::linear(1e-5, 0.1, 1e11);

@@ -32,7 +32,7 @@ pub(crate) fn calibrate(
     measurements: Source,
     out: Option<PathBuf>,
     noise: Named,
-    model: Option<Source>,
+    uncertainty: Option<Uncertain>,
     parameters: Vec<String>,
     share: Vec<String>,
     unknown: Vec<(String, Option<f64>)>,
@@ -55,7 +55,7 @@ pub(crate) fn calibrate(
     };
     let settings = FitSettings { loss, starts, seed, only_identifiable, ..FitSettings::default() };
     let work = |_: &_| -> Answer<(Robot, String)> {
-        let prior = model.map(|model| model.errors(robot)).transpose()?;
+        let prior = uncertainty.map(|of| of.errors(robot)).transpose()?;
         let measured = read_measurements(&measurements.measurements()?, robot, &noise)?;
         let names: Vec<&str> = parameters.iter().map(String::as_str).collect();
         let share: Vec<&str> = share.iter().map(String::as_str).collect();
@@ -250,7 +250,7 @@ pub(crate) fn simulate(
     robot: &Robot,
     poses: Numbers,
     out: Option<PathBuf>,
-    model: Source,
+    uncertainty: Uncertain,
     noise: Named,
     unknown: Named,
     markers: Vec<[f64; 3]>,
@@ -271,7 +271,7 @@ pub(crate) fn simulate(
     };
     let markers: Vec<Vector3<f64>> = markers.into_iter().map(Vector3::from).collect();
     run(py, |_| -> Answer<(Robot, String)> {
-        let deviations = drawn(&model.errors(robot)?, seed);
+        let deviations = drawn(&uncertainty.errors(robot)?, seed);
         let named = |(name, std): &(String, f64)| Ok((SensorError::from_name(name)?, *std));
         let errors = unknown.iter().map(named).collect::<Result<Vec<_>, CalibrationError>>()?;
         let rows = cdpr_calibration::simulate(&Simulated {

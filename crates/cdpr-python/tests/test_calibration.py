@@ -40,7 +40,7 @@ def measurements(data, model, caroca_file, tmp_path_factory):
 
 def test_files_are_those_of_the_program(caroca, caroca_file, measurements, model, tmp_path):
     ours, theirs = tmp_path / "ours", tmp_path / "theirs"
-    found = cdpr.calibration.calibrate(caroca, measurements, ours, model=model, noise=NOISE)
+    found = cdpr.calibration.calibrate(caroca, measurements, ours, uncertainty=model, noise=NOISE)
     summary = found.summary
     noise = ",".join(f"{name}={std}" for name, std in NOISE.items())
     arguments = [measurements, "--uncertainty", model, "--noise", noise, "--out", theirs]
@@ -67,7 +67,7 @@ def test_errors_of_sensors_are_sought(caroca, measurements, model, tmp_path):
     lines = Path(measurements).read_text().splitlines()
     moved = tmp_path / "moved.csv"
     moved.write_text("\n".join([lines[0], *map(change, lines[1:])]) + "\n")
-    sought = {"model": model, "noise": NOISE, "unknown": {"length_offset": None}}
+    sought = {"uncertainty": model, "noise": NOISE, "unknown": {"length_offset": None}}
     found = cdpr.calibration.calibrate(caroca, moved, **sought)
     offset = found.sensors["length_offset1"]
     assert abs(offset["after"] - 0.25) < 5 * offset["std"] + 1e-6
@@ -258,13 +258,13 @@ def test_a_simulated_campaign_is_that_of_the_program(name, free, tmp_path):
                    "--out", tmp_path / "theirs.csv", "--truth", tmp_path / "truth.json", *more)
     assert done.returncode == 0, done.stderr
     campaign = cdpr.calibration.simulate(
-        robot, poses, tmp_path / "ours.csv", model=model, noise={"position": 1e-4, "length": 1e-4},
+        robot, poses, tmp_path / "ours.csv", uncertainty=model, noise={"position": 1e-4, "length": 1e-4},
         unknown={"length_offset": 0.01}, free=free, seed=3,
     )
     assert (tmp_path / "ours.csv").read_bytes() == (tmp_path / "theirs.csv").read_bytes()
     assert campaign.robot.to_dict() == cdpr.Robot.from_file(tmp_path / "truth.json").to_dict()
     with pytest.raises(cdpr.InputError, match='tension_at is "x": expected platform or winch'):
-        cdpr.calibration.simulate(robot, poses, model=model, noise={}, tension_at="x")
+        cdpr.calibration.simulate(robot, poses, uncertainty=model, noise={}, tension_at="x")
 
 
 def test_a_calibration_needs_no_files(caroca, measurements, model, data, tmp_path, monkeypatch):
@@ -272,7 +272,7 @@ def test_a_calibration_needs_no_files(caroca, measurements, model, data, tmp_pat
     header, *lines = [line.split(",") for line in Path(measurements).read_text().splitlines()]
     columns = dict(zip(header, numpy.array(lines, dtype=float).T))
     tolerances = json.loads(Path(model).read_text())
-    expected = cdpr.calibration.calibrate(caroca, measurements, model=model, noise=NOISE)
+    expected = cdpr.calibration.calibrate(caroca, measurements, uncertainty=model, noise=NOISE)
     monkeypatch.chdir(tmp_path)
     tables = [columns]
     try:
@@ -282,11 +282,11 @@ def test_a_calibration_needs_no_files(caroca, measurements, model, data, tmp_pat
     else:
         tables.append(pandas.DataFrame({**columns, "operator": ["me"] * len(lines)}))
     for table in tables:
-        found = cdpr.calibration.calibrate(caroca, table, model=tolerances, noise=NOISE)
+        found = cdpr.calibration.calibrate(caroca, table, uncertainty=tolerances, noise=NOISE)
         assert found.summary == expected.summary and found.posterior == expected.posterior
         numpy.testing.assert_array_equal(found.robot.anchor_points, expected.robot.anchor_points)
     assert list(tmp_path.iterdir()) == []
-    again = cdpr.calibration.calibrate(found.robot, columns, model=found.posterior, noise=NOISE)
+    again = cdpr.calibration.calibrate(found.robot, columns, uncertainty=found.posterior, noise=NOISE)
     assert again.parameters == found.parameters
     for wrong, words in (
         ({"l1_m": [1.0, 2.0], "l2_m": [1.0]}, "measurements: l2_m has 1 rows: expected 2 rows, as l1_m"),
@@ -296,8 +296,8 @@ def test_a_calibration_needs_no_files(caroca, measurements, model, data, tmp_pat
     ):
         with pytest.raises(cdpr.InputError, match=words):
             cdpr.calibration.calibrate(caroca, wrong, noise=NOISE)
-    with pytest.raises(cdpr.InputError, match="model: .*nonsense"):
-        cdpr.calibration.calibrate(caroca, columns, model={"nonsense": {"law": {"normal": {"mean": 0, "std": 1}}}})
+    with pytest.raises(cdpr.InputError, match="uncertainty: .*nonsense"):
+        cdpr.calibration.calibrate(caroca, columns, uncertainty={"nonsense": {"law": {"normal": {"mean": 0, "std": 1}}}})
 
 
 @pytest.mark.parametrize("name, free", [("cogiro", None), ("four-cables", ["roll", "pitch"]), ("ipanema-3", None)])
@@ -308,8 +308,8 @@ def test_a_simulated_campaign_in_memory_leads_back_to_the_true_robot(name, free)
     poses = [[*(middle[:2] + [x, y]), z * height] for x in (-0.3, 0, 0.3) for y in (-0.2, 0.2) for z in (0.4, 0.5)]
     tolerances = {"a": {"law": {"normal": {"mean": 0.0, "std": 0.001}}}}
     noise = {"position": 1e-6, "rotation": 1e-6, "length": 1e-6}
-    campaign = cdpr.calibration.simulate(robot, poses, model=tolerances, noise=noise, free=free)
+    campaign = cdpr.calibration.simulate(robot, poses, uncertainty=tolerances, noise=noise, free=free)
     assert len({len(column) for column in campaign.measurements.values()}) == 1
-    found = cdpr.calibration.calibrate(robot, campaign.measurements, model=tolerances, noise=noise)
+    found = cdpr.calibration.calibrate(robot, campaign.measurements, uncertainty=tolerances, noise=noise)
     before = abs(robot.anchor_points - campaign.robot.anchor_points).max()
     assert abs(found.robot.anchor_points - campaign.robot.anchor_points).max() < 0.5 * before

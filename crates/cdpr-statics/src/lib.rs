@@ -120,7 +120,9 @@ pub mod hysteresis {
 /// Limits of the tensions at a pose, and the tensions that pass them.
 pub mod limits {
     pub use crate::inverse::limits_at;
-    pub use crate::out_of_limits::{Limit, OutOfLimits, allowed, out_of_limits, tensions_out_of_limits};
+    pub use crate::out_of_limits::{
+        Limit, OutOfLimits, allowed, cables_in_words, in_words, out_of_limits, tensions_out_of_limits,
+    };
 }
 
 /// Equilibria from many starts.

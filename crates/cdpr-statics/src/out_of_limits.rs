@@ -2,7 +2,7 @@
 
 use crate::state::Equilibrium;
 use cdpr_cable::MAX_STRAIN;
-use cdpr_robot::{CableEnd, Robot, TensionLimits, visible};
+use cdpr_robot::{CableEnd, Robot, TensionLimits, significant, visible};
 use std::fmt;
 
 /// A tension outside of what a cable is to bear, or can bear.
@@ -127,18 +127,84 @@ impl Equilibrium {
     }
 }
 
-impl fmt::Display for OutOfLimits {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { cable, end, tension, limit, value } = self;
-        let end = if end.is_anchor() { "" } else { " at the exit point" };
-        let tension = visible(*tension, 3);
-        write!(f, "cable {}: its tension of {tension} N{end} is ", cable + 1)?;
-        match limit {
-            Limit::BreakingForce => write!(f, "above its breaking force, {value} N"),
-            Limit::Strain => write!(f, "above the one of the greatest strain, {value} N"),
-            Limit::Max => write!(f, "above tension_limits.max, {value} N"),
-            Limit::MaxElsewhere => write!(f, "above tension_limits.max, {value} N, of its other end"),
-            Limit::Min => write!(f, "below tension_limits.min, {value} N"),
+/// Share of a limit within which the distance from it is said, as the tension reads like the limit.
+const NEAR: f64 = 1e-3;
+
+impl OutOfLimits {
+    /// Its limit in words.
+    fn limit_in_words(&self) -> String {
+        let value = self.value;
+        match self.limit {
+            Limit::BreakingForce => format!("its breaking force, {value} N"),
+            Limit::Strain => format!("the one of the greatest strain, {value} N"),
+            Limit::Max => format!("tension_limits.max, {value} N"),
+            Limit::MaxElsewhere => format!("tension_limits.max, {value} N, of its other end"),
+            Limit::Min => format!("tension_limits.min, {value} N"),
         }
     }
+
+    /// Where the tension is, and `above` or `below`.
+    fn sides(&self) -> [&'static str; 2] {
+        let end = if self.end.is_anchor() { "" } else { " at the exit point" };
+        [end, if self.limit == Limit::Min { "below" } else { "above" }]
+    }
+
+    /// Distance from the limit [N] in words, where the tension reads like the limit.
+    fn distance_in_words(&self) -> Option<String> {
+        (self.excess() < NEAR).then(|| significant((self.tension - self.value).abs(), 2))
+    }
+}
+
+impl fmt::Display for OutOfLimits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ([end, side], limit, cable) = (self.sides(), self.limit_in_words(), self.cable + 1);
+        match self.distance_in_words() {
+            Some(distance) => write!(f, "cable {cable}: its tension{end} is {distance} N {side} {limit}"),
+            None => {
+                let tension = visible(self.tension, 3);
+                write!(f, "cable {cable}: its tension of {tension} N{end} is {side} {limit}")
+            }
+        }
+    }
+}
+
+/// Tensions out of limits in words: one line for all cables that pass the same limit.
+pub fn in_words(list: &[OutOfLimits]) -> Vec<String> {
+    let is_same =
+        |a: &OutOfLimits, b: &OutOfLimits| a.limit == b.limit && a.end == b.end && a.value == b.value;
+    let is_first = |(k, one): &(usize, &OutOfLimits)| !list[..*k].iter().any(|other| is_same(one, other));
+    let firsts = list.iter().enumerate().filter(is_first).map(|(_, one)| one);
+    let line = |one: &OutOfLimits| {
+        let same: Vec<&OutOfLimits> = list.iter().filter(|other| is_same(one, other)).collect();
+        let worst = same.iter().copied().max_by(|a, b| a.excess().total_cmp(&b.excess())).unwrap_or(one);
+        if same.len() < 2 {
+            return worst.to_string();
+        }
+        let cables = cables_in_words(&same.iter().map(|one| one.cable).collect::<Vec<_>>());
+        let ([end, side], limit) = (worst.sides(), worst.limit_in_words());
+        if let Some(distance) = worst.distance_in_words() {
+            return format!("{cables}: tension{end} is up to {distance} N {side} {limit}");
+        }
+        let (to, tension) = (if side == "below" { "down to" } else { "up to" }, visible(worst.tension, 3));
+        format!("{cables}: tension {to} {tension} N{end} is {side} {limit}")
+    };
+    firsts.map(line).collect()
+}
+
+/// Cables by their indices, from 0, in words: `cable 3`, `cables 1, 4`, `cables 1 to 8`.
+pub fn cables_in_words(indices: &[usize]) -> String {
+    let mut runs: Vec<[usize; 2]> = Vec::new();
+    for number in indices.iter().map(|i| i + 1) {
+        match runs.last_mut() {
+            Some([_, last]) if *last + 1 == number => *last = number,
+            _ => runs.push([number; 2]),
+        }
+    }
+    let run = |[first, last]: &[usize; 2]| match last - first {
+        0 => first.to_string(),
+        1 => format!("{first}, {last}"),
+        _ => format!("{first} to {last}"),
+    };
+    let runs: Vec<String> = runs.iter().map(run).collect();
+    format!("cable{} {}", if indices.len() == 1 { "" } else { "s" }, runs.join(", "))
 }

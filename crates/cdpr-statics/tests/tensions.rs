@@ -4,7 +4,7 @@ use crate::common::{caroca, cogiro, fast, ipanema, stadium};
 use crate::pulleys::led;
 use cdpr_robot::{CableEnd, Pose, Robot, TensionReference, Vector3};
 use cdpr_statics::hysteresis::{HysteresisLaw, load_cycle};
-use cdpr_statics::limits::{Limit, OutOfLimits, limits_at, out_of_limits};
+use cdpr_statics::limits::{Limit, OutOfLimits, in_words, limits_at, out_of_limits};
 use cdpr_statics::stiffness::stiffness_at;
 use cdpr_statics::{
     Bound, InverseSolution, Load, StaticsError, WantedPose, deflection, inverse, is_feasible,
@@ -251,6 +251,28 @@ fn a_tension_is_named_by_the_most_serious_limit_that_it_passes_at_either_end() {
     assert!(
         words.starts_with("cable 5: its tension of ") && words.contains("below tension_limits.min"),
         "{words}"
+    );
+}
+
+#[test]
+fn cables_that_pass_one_limit_have_one_line_and_a_tension_never_reads_like_its_limit() {
+    let named = |cable: usize, tension: f64, limit: Limit, value: f64| OutOfLimits {
+        cable,
+        end: CableEnd::Anchor,
+        tension,
+        limit,
+        value,
+    };
+    let slack: Vec<_> = (4..8).map(|cable| named(cable, 1.0 - 1.5e-4, Limit::Min, 1.0)).collect();
+    assert_eq!(in_words(&slack), ["cables 5 to 8: tension is up to 0.00015 N below tension_limits.min, 1 N"]);
+    assert_eq!(slack[0].to_string(), "cable 5: its tension is 0.00015 N below tension_limits.min, 1 N");
+    let broken = [(0, 720.0), (2, 750.0), (5, 710.0)].map(|(i, t)| named(i, t, Limit::BreakingForce, 700.0));
+    let both = [&broken[..], &slack[..1]].concat();
+    let words = "cables 1, 3, 6: tension up to 750.000 N is above its breaking force, 700 N";
+    assert_eq!(in_words(&both), [words, &slack[0].to_string()]);
+    assert_eq!(
+        in_words(&broken[..1]),
+        ["cable 1: its tension of 720.000 N is above its breaking force, 700 N"]
     );
 }
 

@@ -1,9 +1,10 @@
 // The page of a robot: ties state, engine, view and panels together.
 
 import { Address } from "./address.js";
+import { attribution } from "./attribution.js";
 import { roundUp } from "./charts/scale.js";
 import { h, setText, undoStep, whenOther } from "./dom.js";
-import { entryWords, point, rangeWithUnit, sharePercent, short, withUnit } from "./format.js";
+import { point, rangeWithUnit, short, withUnit } from "./format.js";
 import { extents, groundOf } from "./geometry.js";
 import { layout, WIDE } from "./layout.js";
 import { Mechanics } from "./mechanics.js";
@@ -27,7 +28,7 @@ import { notHeld, stagePanel } from "./panels/stage.js";
 import { timelinePanel } from "./panels/timeline.js";
 import { tolerancesPanel } from "./panels/tolerances.js";
 import { trajectoryPanel } from "./panels/trajectory.js";
-import { changedRobot, isChanged, pointsOf, shares, tolerances } from "./robot.js";
+import { changedRobot, isChanged, pointsOf } from "./robot.js";
 import { pictureOf } from "./picture.js";
 import { Sampling } from "./sampling.js";
 import { Slicing } from "./slicing.js";
@@ -174,12 +175,10 @@ export class App {
     return rms > 0 ? Math.max(1, roundUp((0.06 * this.size) / rms)) : 1;
   }
 
-  /** The tolerance with the largest share of the variance, in words. */
+  /** The tolerance that certainly matters most; null where it is not known. */
   most() {
     const { effects, failure, hasEffects } = this.sampling;
-    if (!hasEffects || failure) return null;
-    const [top] = shares(effects.inputs, tolerances(this.robot.study));
-    return top ? `${entryWords(top.entry)}, ${sharePercent(top.share)}` : null;
+    return hasEffects && !failure ? attribution(effects, this.robot.study).winner : null;
   }
 
   /** Draws all panels at the next frame. */

@@ -125,6 +125,11 @@ export function entryWords(entry) {
   return groups[entry] ?? parameterWords(entry);
 }
 
+/** A name as files, commands and reports have it, and words for it. */
+export function named(name, words) {
+  return words === name ? name : `${name} (${words})`;
+}
+
 /** How many of a unit of the interface one SI unit has, and its name: 1000 mm to a metre. */
 export function shownUnit(unit) {
   return (

@@ -193,23 +193,3 @@ export function unobserved(study, state) {
   }
   return null;
 }
-
-/**
- * Shares of the tolerances in the variance, by effects: the variance of a parameter that acts linearly is its
- * effect squared over 3 (uniform law), or over 8/π (normal law).
- * @param {Array<{entry: string, effect_mm: number}>} effects
- * @param {Object<string, object>} entries those of the error model
- * @returns {Array<{entry: string, share: number}>} the largest first
- */
-export function shares(effects, entries) {
-  const sums = new Map();
-  for (const { entry, effect_mm } of effects) {
-    const law = entries[entry]?.law ?? {};
-    const part = effect_mm ** 2 / ("normal" in law ? 8 / Math.PI : 3);
-    sums.set(entry, (sums.get(entry) ?? 0) + part);
-  }
-  const total = [...sums.values()].reduce((sum, part) => sum + part, 0);
-  return [...sums]
-    .map(([entry, part]) => ({ entry, share: total > 0 ? part / total : 0 }))
-    .sort((a, b) => b.share - a.share);
-}

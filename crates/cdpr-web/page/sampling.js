@@ -26,7 +26,8 @@ export class Sampling {
   /** {summary, sentences, nominal, failed, milliseconds, coarse, key, observations, study} of the last
    * observations. */
   sample = null;
-  /** {inputs, confidence, replicates, key, observations} of the last effects, with those of a replicate. */
+  /** {inputs, confidence, replicates, key, observations, variance} of the last effects, with the observations
+   * of a replicate and their variance [mm²]. */
   effects = null;
   failure = null;
   busy = false;
@@ -133,9 +134,15 @@ export class Sampling {
     } = await this.engine.ask("observe", asks);
     const asked = { key, study: text, coarse: true };
     if (!this.#take(asked, set, first, slow ? milliseconds : milliseconds / 3)) return false;
-    if (effects?.ok) this.effects = { ...effects.ok, key, observations: count };
+    if (effects?.ok) this.#keep(effects.ok, key, count);
     this.told();
     return true;
+  }
+
+  // Effects, with the variance of the observations that they were asked with.
+  #keep(effects, key, observations) {
+    const variance = (this.sample?.summary.std ?? 0) ** 2;
+    this.effects = { ...effects, key, observations, variance };
   }
 
   // How long an observation takes, which nobody knows before.
@@ -183,7 +190,7 @@ export class Sampling {
       answers: [, effects],
     } = await this.engine.ask("observe", [text, { effects: { of } }]);
     if (this.#wanted?.key !== key) return false;
-    if (effects.ok) this.effects = { ...effects.ok, key, observations: count };
+    if (effects.ok) this.#keep(effects.ok, key, count);
     else this.failure = effects.error;
     this.told();
     return true;

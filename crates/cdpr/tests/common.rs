@@ -59,12 +59,22 @@ pub(crate) fn unwrapped(bytes: Vec<u8>) -> String {
     joined.join("\n") + end
 }
 
-/// Standard output of a command that must succeed and say nothing on the standard error but how long it
-/// takes.
+/// Standard output of a command that must succeed and say nothing on the standard error but how long it takes
+/// and that all poses of a table are held.
 pub(crate) fn answered(output: Output) -> String {
     let said = unwrapped(output.stderr);
-    assert!(output.status.success() && said.lines().all(is_progress), "{said}");
+    let is_well = |line: &str| is_progress(line) || is_all_held(line);
+    assert!(output.status.success() && said.lines().all(is_well), "{said}");
     text(output.stdout)
+}
+
+/// Whether a line says that all poses of a table are held: `3 of 3 poses held, ...`.
+pub(crate) fn is_all_held(line: &str) -> bool {
+    let held = line.split_once(" of ").and_then(|(held, rest)| {
+        let (poses, rest) = rest.split_once(' ')?;
+        Some(held == poses && (rest.starts_with("pose held") || rest.starts_with("poses held")))
+    });
+    held == Some(true)
 }
 
 /// Whether a line says how long a command takes so far.

@@ -1,6 +1,6 @@
 //! The library of robots: every one is listed, checked, studied and mapped.
 
-use crate::common::{answered, cdpr, cdpr_in, json_file, unwrapped};
+use crate::common::{answered, cdpr, cdpr_in, data, json_file, text, unwrapped};
 use cdpr_robot::Robot;
 use cdpr_robot::library::{CABLES, ROBOTS};
 use serde_json::{Value, json};
@@ -141,4 +141,54 @@ fn a_study_and_a_map_of_robots_with_four_cables_find_roll_and_pitch() {
 /// The robot of that name.
 fn robot(name: &str) -> Robot {
     Robot::from_json(cdpr_robot::library::named(ROBOTS, name).unwrap().text).unwrap()
+}
+
+#[test]
+fn stiffness_by_a_law_and_breaking_forces_that_differ_are_shown() {
+    let law = answered(cdpr(&["robot", "show", "caroca-law"])).replace('\n', " ");
+    assert!(law.contains(" N by youngs_modulus, ") && law.contains(" N by the elastic law"), "{law}");
+    let mut robot = json_file(data("robots/caroca.json"));
+    for (i, force) in [(0, json!(5000)), (1, json!(null))] {
+        let mut cable = robot["cable"].clone();
+        match force.is_null() {
+            true => drop(cable.as_object_mut().unwrap().remove("breaking_force")),
+            false => cable["breaking_force"] = force,
+        }
+        robot["cables"][i]["cable"] = cable;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mixed.json");
+    std::fs::write(&path, robot.to_string()).unwrap();
+    let shown = cdpr(&["robot", "show", path.to_str().unwrap()]);
+    let shown = text(shown.stdout).replace('\n', " ");
+    assert!(shown.contains("breaking force 5000 to 10290 N, that of 1 cable not known"), "{shown}");
+}
+
+#[test]
+fn a_template_is_replaced_where_it_is_asked_for_and_quiet_says_its_name_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let new = |more: &[&str]| {
+        let call = ["study", "new", "caroca", "--out", "study.json", "--payload"];
+        cdpr_in(folder.path(), &[&call[..], more].concat())
+    };
+    assert_eq!(answered(new(&["5", "-q"])), "study.json is a study of caroca\n");
+    assert_eq!(new(&["6"]).status.code(), Some(1));
+    assert_eq!(json_file(folder.path().join("study.json"))["payload"], 5.0);
+    assert!(answered(new(&["7", "--overwrite"])).lines().count() > 20);
+    assert_eq!(json_file(folder.path().join("study.json"))["payload"], 7.0);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn warnings_are_above_notes() {
+    let mut robot = json_file(data("robots/caroca.json"));
+    let anchor = |i: usize| robot["cables"][i]["anchor_point"].clone();
+    let [one, other] = [0, 1].map(anchor);
+    (robot["cables"][0]["anchor_point"], robot["cables"][1]["anchor_point"]) = (other, one);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("exchanged.json");
+    std::fs::write(&path, robot.to_string()).unwrap();
+    let printed = text(cdpr(&["robot", "check", path.to_str().unwrap()]).stdout);
+    let [warning, note] = ["\nwarning: ", "\nnote: "].map(|word| printed.find(word).unwrap());
+    assert!(warning < note, "{printed}");
 }

@@ -1,6 +1,6 @@
 //! `cdpr modes`: natural motions of platform and cables, and what says that cables have no mass.
 
-use crate::common::{cdpr, data_path, data_text, unwrapped};
+use crate::common::{cdpr, data_path, data_text, text, unwrapped};
 use crate::equilibria::number;
 use crate::models::{answer, close, joined, numbers, printed};
 use cdpr_robot::{Pose, Robot};
@@ -40,6 +40,10 @@ fn platform_and_cables_vibrate_together_and_none_of_their_motions_is_missing() {
         let sum = number(&mode["platform_share"]) + numbers(&mode["cable_shares"]).iter().sum::<f64>();
         assert!((sum - 1.0).abs() < 1e-8);
     }
+    // The lowest one is the answer.
+    let printed = text(cdpr(&["modes", &file, "--pose", "0,0,2", "--number", "5"]).stdout);
+    let words = format!("CoGiRo at (0, 0, 2) m: lowest natural frequency {:.4} Hz; ", frequencies[0]);
+    assert!(printed.starts_with(&words), "{printed}");
     let first = answer(&["modes", &file, "--pose", "0,0,2", "--number", "5"]);
     assert_eq!(first["modes"].as_array().unwrap().len(), 5);
     for (one, other) in first["modes"].as_array().unwrap().iter().zip(&frequencies) {

@@ -1,6 +1,6 @@
 //! `cdpr cable modulus` and `cdpr cable density` as a user meets them.
 
-use crate::common::{cdpr, data_path, unwrapped};
+use crate::common::{cdpr, data_path, text, unwrapped};
 use serde_json::Value;
 use std::process::Output;
 
@@ -28,6 +28,12 @@ fn moduli_of_several_ranges_come_as_json_and_the_loop_as_a_picture() {
     assert!(number("/ranges/0/loading/standard_uncertainty_gpa") > 7.0);
     assert!(number("/dissipated_energy_j") > 0.0);
     assert!(std::fs::read_to_string(figure).unwrap().contains("elongation [mm]"));
+    // The answer is first, and no word of the header is broken.
+    let printed = text(modulus(&record(), &["--range", "5-10"]).stdout);
+    assert!(printed.starts_with("83.20 GPa +- "), "{printed}");
+    for header in [" phase ", " modulus [GPa] ", " independent ", " greatest "] {
+        assert!(printed.contains(header), "{printed}");
+    }
 }
 
 #[test]

@@ -91,6 +91,7 @@ fn lists_that_are_in_doubt_are_refused_with_their_line_and_column() {
         ("x_m,y_m,z_m,q3\n0,0,2,1\n", "line 1: column q3: expected x_m,y_m,z_m, then none"),
         ("x_m,y_m,z_deg\n0,0,2\n", "line 1: column z_deg: z in a unit of angle: expected x_m,y_m,z_m"),
         ("x_m,x_mm,y,z\n0,0,0,2\n", "line 1: column x_mm: x is there twice"),
+        ("x_ft,y_ft,z_ft\n0,0,2\n", "columns x_ft,y_ft,z_ft: x_ft has the unit ft, which is not known"),
         ("x,y,z\n0,0,2\n0,,2\n", "line 3, column y: ``: expected a finite number"),
         ("0,0,2,0,0,90\n", "line 1: 6 numbers: expected x,y,z [m]; angles go apart"),
         ("x,y,z,qw,qx\n0,0,2,1,0\n", "line 1: columns x,y,z,qw,qx: expected"),

@@ -1,7 +1,8 @@
 //! `cdpr safety` as a user types it: short motions, and what is not known.
 
-use crate::common::{cdpr, text, unwrapped};
+use crate::common::{cdpr, json_file, text, unwrapped};
 use crate::models::answer;
+use cdpr_robot::significant;
 use serde_json::json;
 use tempfile::TempDir;
 
@@ -78,6 +79,32 @@ fn the_table_begins_with_the_whole_robot_and_names_the_forces_that_its_factors_a
     assert_eq!(found["safety_factor"], 600.0 / greatest);
     let whole = printed.lines().find(|line| line.starts_with("│ none ")).unwrap();
     assert!(whole.contains(&format!(" {:.1} ", 600.0 / greatest)), "{whole}");
+}
+
+/// The cable that breaks first is not the one that pulls most where cables are of two types.
+#[test]
+fn a_factor_of_another_cable_than_the_most_loaded_one_names_its_cable() {
+    let folder = TempDir::new().unwrap();
+    let path = strong_point(&folder, "2000");
+    let mut robot = json_file(&path);
+    let mut weak = robot["cable"].clone();
+    weak["breaking_force"] = json!(220);
+    robot["cables"][2]["cable"] = weak;
+    std::fs::write(&path, robot.to_string()).unwrap();
+    // Cables 1 and 4 are steepest there.
+    let call = ["safety", &path, "--pose", "1.5,0,1"];
+    let (found, printed) = (answer(&call), text(cdpr(&call).stdout));
+    let exits = found["exit_tensions"].as_array().unwrap();
+    let factor = 220.0 / exits[2].as_f64().unwrap();
+    assert_ne!(found["greatest_tension"]["cable"], 3);
+    assert_eq!((&found["safety_factor"], &found["safety_factor_cable"]), (&json!(factor), &json!(3)));
+    let whole = printed.lines().find(|line| line.starts_with("│ none ")).unwrap();
+    assert!(whole.contains(&format!(" {} (cable", significant(factor, 3))), "{printed}");
+    assert_ne!(found["broken"][2]["safety_factor_cable"], json!(3));
+    let table = text(cdpr(&[&call[..], &["--format", "csv"]].concat()).stdout);
+    let mut rows = csv::Reader::from_reader(table.as_bytes());
+    let column = rows.headers().unwrap().iter().position(|name| name == "safety_factor_cable").unwrap();
+    assert_eq!(&rows.records().next().unwrap().unwrap()[column], "3");
 }
 
 /// A point mass of 10 kg on four cables of this breaking force.

@@ -24,7 +24,7 @@ fn a_dropped_payload_makes_a_series_and_a_summary() {
     let printed = cdpr(&[&call[..], &["--rate", "50", "--damping", "2e-4", "--out", out]].concat());
     let summary = text(printed.stdout);
     assert_eq!(printed.status.code(), Some(0), "{}", unwrapped(printed.stderr));
-    assert!(summary.contains("The platform moves up to 15.4 mm and 0.0793 deg"), "{summary}");
+    assert!(summary.starts_with("CoGiRo moves up to 15.4 mm and 0.0793 deg"), "{summary}");
     assert!(summary.lines().all(|line| line.chars().count() <= 80), "{summary}");
     let series = std::fs::read_to_string(out).unwrap();
     let mut lines = series.lines();

@@ -228,7 +228,7 @@ fn a_study_without_a_result_or_with_a_nominal_robot_that_breaks_ends_with_code_3
     ended(&bench, 3, "question: mechanical is the result of 0 observations: 20 of 20 failed (100 %)");
     let bench = few(&|_| ());
     bench.change("robot.json", |robot| robot["cable"]["breaking_force"] = json!(730.0));
-    ended(&bench, 3, "warning: mechanical, nominal robot with the payload: cable 3: its tension of");
+    ended(&bench, 3, "warning: mechanical, nominal robot with the payload: cables 3, 6: tension up to");
 }
 
 #[cfg(unix)]
@@ -303,6 +303,9 @@ fn files_of_other_programs_are_imported_questioned_or_refused_at_once() {
     let nested = data_path("reference/exchange/nested-model.yaml");
     let (code, robot, _) = import(&[&nested], &cable);
     assert_eq!((code, robot.contains("\"max\": 900")), (0, true), "{robot}");
+    // The answer is above the notes.
+    let (_, printed, _) = import(&[&nested], &[&cable[..], &["--out", "nested.json"]].concat());
+    assert!(printed.starts_with("nested.json: ") && printed.contains("\nno place for:"), "{printed}");
     let two = format!("{}---\nlimits: {{min: 3}}\n", std::fs::read_to_string(&nested).unwrap());
     std::fs::write(bench.path("two.yaml"), two).unwrap();
     let (code, _, said) = import(&["two.yaml"], &cable);
@@ -325,4 +328,23 @@ fn files_of_other_programs_are_imported_questioned_or_refused_at_once() {
     let (code, _, said) = import(&[&format!("{folder}/plate_bodies.xml"), "cables.xml"], &cable);
     assert_eq!(code, 1);
     assert!(said.contains("the cable set a, the file also has b: `FILE:SET` chooses one"), "{said}");
+}
+
+#[test]
+fn the_first_sentence_says_which_cables_break_and_one_line_names_all_that_pass_a_limit() {
+    let printed =
+        |arguments: &[&str]| text(cdpr().arg("deflection").args(arguments).output().unwrap().stdout);
+    let broken = printed(&["caroca", "--pose", "0,0,1.2", "--force", "0,0,-50000"]);
+    let first = broken.split("dp = ").next().unwrap().replace('\n', " ");
+    assert!(first.contains(" mm; cables 1 to 8 break. ") && !first.contains("stable"), "{broken}");
+    let line = "cables 1 to 8: tension up to 13331.346 N is above its breaking force, 10290 N";
+    assert_eq!(broken.matches("its breaking force").count(), 1, "{broken}");
+    assert!(broken.contains(line), "{broken}");
+    // A tension that reads like its limit is not said to be below it.
+    let slack = printed(&["ipanema-1", "--pose", "0,0,1", "--payload", "2.5"]);
+    assert!(
+        slack.contains("cables 5 to 8: tension is up to 0.00015 N below tension_limits.min, 1 N"),
+        "{slack}"
+    );
+    assert!(slack.contains("it stays stable") && !slack.contains("1.000 N is below"), "{slack}");
 }

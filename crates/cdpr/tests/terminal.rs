@@ -1,6 +1,6 @@
 //! Long commands in a terminal of their own: they show how long they take, and end when it is closed.
 
-use crate::common::{Bench, data_path, unwrapped};
+use crate::common::{Bench, cdpr_in, data_path, text, unwrapped};
 use serde_json::json;
 use std::io::{BufReader, Bytes, Read};
 use std::path::Path;
@@ -152,4 +152,48 @@ fn a_run_that_is_to_outlive_its_terminal_ends_by_itself() {
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", unwrapped(output.stderr));
     assert!(out.join("summary.json").exists());
+}
+
+/// A reader has the sentence first and a table of few columns; programs have all columns, the sentence apart.
+#[test]
+fn many_poses_are_a_sentence_and_a_short_table_in_a_terminal_and_all_columns_in_a_pipe_and_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("poses.csv"), "x,y,z\n0,0,2\n0,0,50\n0,0,40\n").unwrap();
+    let sentence = "1 of 3 poses held; 2 without feasible tensions, first at line 3.";
+    let load = ["--payload", "10"];
+    for (command, load) in [
+        ("inverse", &[][..]),
+        ("deflection", &load),
+        ("stiffness", &[]),
+        ("modes", &[]),
+        ("path", &load),
+        ("capacity", &[]),
+        ("safety", &[]),
+        ("derivatives", &load),
+    ] {
+        let call = [&[command, "caroca", "--poses", "poses.csv"], load].concat();
+        let mut terminal = Terminal::open(folder.path(), &call.join(" "));
+        terminal.read_until("--format csv.");
+        // What the terminal was sent as bytes is text again.
+        let seen: Vec<u8> = terminal.seen.chars().map(|byte| byte as u8).collect();
+        let seen = String::from_utf8(seen).unwrap();
+        terminal.close();
+        assert!(seen.contains(sentence) && seen.contains("line 3: at position (0, 0, 50) m: "), "{seen}");
+        assert!(!seen.contains("x_m,"), "{seen}");
+        for line in seen.lines() {
+            // What is behind the bar of progress, which the terminal has cleared.
+            let line = line.rsplit('\u{1b}').next().unwrap();
+            let line = line.strip_prefix("[1A").unwrap_or(line);
+            assert!(line.trim_end().chars().count() <= 80, "{command}: {line}");
+        }
+        let piped = cdpr_in(folder.path(), &call);
+        assert!(text(piped.stdout).starts_with("x_m,y_m,z_m,qw,qx,qy,qz,status,"), "{command}");
+        assert!(unwrapped(piped.stderr).contains(sentence), "{command}");
+        let quiet = cdpr_in(folder.path(), &[&call[..], &["-q"]].concat());
+        assert!(!unwrapped(quiet.stderr).contains("poses held"), "{command}");
+        let filed = cdpr_in(folder.path(), &[&call[..], &["--out", "all.csv", "--overwrite"]].concat());
+        assert!(text(filed.stdout).replace('\n', " ").starts_with(sentence), "{command}");
+        let all = std::fs::read_to_string(folder.path().join("all.csv")).unwrap();
+        assert!(all.starts_with("x_m,y_m,z_m,") && all.lines().count() == 4, "{command}: {all}");
+    }
 }

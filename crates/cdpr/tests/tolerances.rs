@@ -15,6 +15,7 @@ fn the_budget_is_printed_as_a_table_and_as_json() {
     let text = text(tolerances(&["--limit", "deflection_mm<1.4", "--observations", "2000"]).stdout);
     let modulus = text.lines().find(|line| line.contains("\u{2502} youngs_modulus")).unwrap();
     assert!(modulus.contains("99.45") && text.starts_with("For 95 % below 1.4 mm, tighten "), "{text}");
+    assert!(modulus.contains(" Pa "), "{text}");
 
     let json =
         tolerances(&["--limit", "deflection_mm<1.4", "--costs", "youngs_modulus=3", "--format", "json"]);
@@ -68,6 +69,29 @@ fn the_quantity_of_the_limit_decides_whatever_the_output_of_the_study_is() {
     assert!(json["now"]["quantile_mm"]["value"].as_f64().unwrap() > 10.0, "{json}");
     let named = run("stiffness", &limit);
     assert_eq!(text(named.stdout), text(of_position.stdout));
+}
+
+#[test]
+fn the_only_sampling_of_a_study_needs_no_name_and_several_are_named() {
+    let limit = ["--limit", "deflection_mm<1.4", "--observations", "200"];
+    let mut study: Value = serde_json::from_str(&data_text("studies/caroca.json")).unwrap();
+    study["robot"] = data_path("robots/caroca.json").into();
+    let samplings = study["samplings"].as_object().unwrap().clone();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.json");
+    let run =
+        |more: &[&str]| cdpr(&[&["study", "tolerances", path.to_str().unwrap()], &limit[..], more].concat());
+    std::fs::write(&path, study.to_string()).unwrap();
+    let several = run(&[]);
+    let message = unwrapped(several.stderr);
+    assert_eq!(several.status.code(), Some(2), "{message}");
+    assert!(message.contains("expected --sampling with one of mechanical, "), "{message}");
+    study["samplings"] = serde_json::json!({"mechanical": samplings["mechanical"]});
+    study.as_object_mut().unwrap().remove("surfaces");
+    std::fs::write(&path, study.to_string()).unwrap();
+    let one = run(&[]);
+    assert!(one.status.success(), "{}", unwrapped(one.stderr));
+    assert_eq!(one.stdout, run(&["--sampling", "mechanical"]).stdout);
 }
 
 #[test]

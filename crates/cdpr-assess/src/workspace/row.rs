@@ -7,7 +7,7 @@ use crate::safety::winds::Winds;
 use crate::workspace::breaks::AfterBreaks;
 use crate::workspace::question::Workspace;
 use crate::workspace::results::{BEYOND_LIMITS, Dominant, HELD, WorkspacePose};
-use cdpr_statics::limits::OutOfLimits;
+use cdpr_statics::limits::in_words;
 use cdpr_statics::{Load, StaticsError};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
@@ -155,12 +155,12 @@ impl WorkspaceRow {
         let shaken_by = shaken.and_then(|shaken| shaken.as_ref().ok());
         let (status, reason) = match &pose.outcome {
             Ok(held) if held.is_within_limits() => (HELD, overflow.then(|| OVERFLOW.to_owned())),
-            Ok(held) => (BEYOND_LIMITS, Some(in_words(&held.out_of_limits))),
+            Ok(held) => (BEYOND_LIMITS, Some(in_words(&held.out_of_limits).join("; "))),
             Err(error) => (error.kind(), Some(error.to_string())),
         };
         let again = recomputed.map(|recomputed| match recomputed {
             Ok(within) if within.out_of_limits.is_empty() => (HELD, None),
-            Ok(beyond) => (BEYOND_LIMITS, Some(in_words(&beyond.out_of_limits))),
+            Ok(beyond) => (BEYOND_LIMITS, Some(in_words(&beyond.out_of_limits).join("; "))),
             Err(error) => (error.kind(), Some(error.to_string())),
         });
         let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
@@ -183,7 +183,7 @@ impl WorkspaceRow {
                 .map(|held| held.slack.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ")),
             out_of_limits: held
                 .filter(|held| !held.out_of_limits.is_empty())
-                .map(|held| in_words(&held.out_of_limits)),
+                .map(|held| in_words(&held.out_of_limits).join("; ")),
             dominant: dominant.and_then(name),
             dominant_share: dominant.map(|dominant| dominant.share),
             std_mm: dominant.map(|dominant| 1e3 * dominant.std),
@@ -287,11 +287,6 @@ fn open_after_breaks(breaks: &Result<AfterBreaks, StaticsError>) -> Option<Strin
 
 /// Why a position that is held has no standard deviation.
 const OVERFLOW: &str = "the variance by the tolerances is too large a number: std_mm is left out";
-
-/// Tensions out of limits, in one cell.
-fn in_words(list: &[OutOfLimits]) -> String {
-    list.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
-}
 
 /// Values of all rows as one array for each; those that exist nowhere are left out.
 pub(super) fn columns<S: Serializer>(rows: &[WorkspaceRow], serializer: S) -> Result<S::Ok, S::Error> {

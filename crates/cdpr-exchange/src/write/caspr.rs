@@ -1,7 +1,7 @@
 //! CASPR: bodies and cables. Cables are linear springs with K = EA, with their pulleys.
 
 use crate::error::ExchangeError;
-use crate::write::scene::{Exported, escaped, inertia, unplaced, words};
+use crate::write::scene::{Exported, escaped, inertia, stiffness_at, unplaced, words};
 use cdpr_robot::{Plane, Pose, Robot};
 use std::fmt::Write;
 
@@ -19,11 +19,8 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     if robot.cables.iter().any(|cable| cable.lead > 0.0) {
         notes.push("leads have no place".to_owned());
     }
-    if robot.cables.iter().any(|cable| cable.properties.law.is_some()) {
-        notes.push(
-            "elastic laws of cables have no place: K is EA of youngs_modulus, not of the law".to_owned(),
-        );
-    }
+    let (stiffness, law) = stiffness_at(robot, pose, "K");
+    notes.extend(law);
     let about_center = inertia(robot, &mut notes);
     let joint = match robot.plane {
         None => "SPATIAL_EULER_XYZ",
@@ -59,10 +56,11 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
         mass = robot.platform.mass,
         center = words(&robot.platform.center_of_mass),
     );
-    Ok(Exported { files: vec![("_bodies.xml", bodies), ("_cables.xml", cables(robot))], notes })
+    Ok(Exported { files: vec![("_bodies.xml", bodies), ("_cables.xml", cables(robot, &stiffness))], notes })
 }
 
-fn cables(robot: &Robot) -> String {
+/// Cables with these axial stiffnesses [N].
+fn cables(robot: &Robot, stiffness: &[f64]) -> String {
     let mut text = String::from(
         r#"<?xml version="1.0" encoding="utf-8"?>
 <!DOCTYPE cables SYSTEM "../../../../templates/cables.dtd">
@@ -95,7 +93,7 @@ fn cables(robot: &Robot) -> String {
     </cable_linear_spring>
 "#,
             number = i + 1,
-            stiffness = cable.properties.axial_stiffness(),
+            stiffness = stiffness[i],
             min = limits.min,
             max = limits.max,
             anchor = words(&cable.anchor_point),

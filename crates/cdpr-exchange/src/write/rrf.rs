@@ -10,7 +10,7 @@
 
 use crate::error::ExchangeError;
 use crate::write::anchors::{Anchors, fixed, joined};
-use crate::write::scene::{Exported, check_upright};
+use crate::write::scene::{Exported, check_upright, stiffness_at};
 use cdpr_robot::{Pose, Robot, TensionLimits, Vector3};
 use std::fmt::Write;
 
@@ -33,7 +33,10 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
         return Err(ExchangeError::NoPlace { field: "cables".to_owned(), value });
     }
     check_upright(robot)?;
-    let stiffness = one_stiffness(robot)?;
+    check_one_stiffness(robot)?;
+    let (stiffness, law) = stiffness_at(robot, pose, "S");
+    // The firmware has one number for all lines.
+    let stiffness = stiffness.iter().sum::<f64>() / count as f64;
     let Anchors { points, mut notes } = Anchors::new(robot, pose)?;
     let mode = mode(&points, pose);
     notes.push(match mode {
@@ -47,11 +50,7 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
                 .to_owned()
         }
     });
-    if robot.cables.iter().any(|cable| cable.properties.law.is_some()) {
-        notes.push(
-            "elastic laws of cables have no place: S is EA of youngs_modulus, not of the law".to_owned(),
-        );
-    }
+    notes.extend(law.map(|note| note + ", their mean where they differ"));
     notes.push(
         "the radius of the printed area (P), spools, gears and motors (Q, R, L, H, J, C) are not in a robot \
          file"
@@ -78,12 +77,12 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     Ok(Exported { files: vec![(".g", text)], notes })
 }
 
-/// EA of all lines [N].
-fn one_stiffness(robot: &Robot) -> Result<f64, ExchangeError> {
+/// Refuses lines of different EA.
+fn check_one_stiffness(robot: &Robot) -> Result<(), ExchangeError> {
     let stiffness = |i: usize| robot.cables[i].properties.axial_stiffness();
     let first = stiffness(0);
     match (0..robot.cables.len()).find(|i| (stiffness(*i) - first).abs() > SAME * first) {
-        None => Ok(first),
+        None => Ok(()),
         Some(i) => Err(ExchangeError::NoPlace {
             field: format!("cables[{i}].cable"),
             value: format!("EA = {} N, and {} N in cables[0]", stiffness(i), first),

@@ -1,7 +1,8 @@
 //! What several formats need of a robot: its inertia, its plain cables, its texts.
 
 use crate::error::ExchangeError;
-use cdpr_robot::{CableEnd, Matrix3, Robot, Vector3};
+use cdpr_robot::{CableEnd, Matrix3, Pose, Robot, RobotCable, Vector3, significant};
+use cdpr_statics::{Load, inverse};
 
 /// A robot in the files of another program.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +55,32 @@ pub(crate) fn check_upright(robot: &Robot) -> Result<(), ExchangeError> {
         return Err(ExchangeError::NoPlace { field: "gravity".to_owned(), value });
     }
     Ok(())
+}
+
+/// Axial stiffness of each cable [N] at the tensions of the pose without load, and a note on elastic laws, if
+/// there are any. `letter` is what the format calls it. Without tensions there it is that of the modulus.
+pub(crate) fn stiffness_at(robot: &Robot, pose: &Pose, letter: &str) -> (Vec<f64>, Option<String>) {
+    let plain: Vec<f64> = robot.cables.iter().map(|cable| cable.properties.axial_stiffness()).collect();
+    if robot.cables.iter().all(|cable| cable.properties.law.is_none()) {
+        return (plain, None);
+    }
+    let no_place = "elastic laws of cables have no place";
+    let Ok(found) = inverse(robot, pose, &Load::none()) else {
+        let note = format!("{no_place}: {letter} is EA of youngs_modulus, as no tensions hold the pose");
+        return (plain, Some(note));
+    };
+    let ratio = |(cable, tension): (&RobotCable, &f64)| {
+        cable.properties.law.as_ref().map_or(1.0, |law| law.ratio(*tension))
+    };
+    let ratios: Vec<f64> = robot.cables.iter().zip(&found.tensions).map(ratio).collect();
+    let least = ratios.iter().copied().fold(f64::INFINITY, f64::min);
+    let greatest = ratios.iter().copied().fold(0.0, f64::max);
+    let [least, greatest] = [least, greatest].map(|ratio| significant(ratio, 3));
+    let ratio = if least == greatest { least } else { format!("{least} to {greatest}") };
+    let note = format!(
+        "{no_place}: {letter} is EA of the laws at the tensions of this pose, {ratio} times that of youngs_modulus"
+    );
+    (plain.iter().zip(&ratios).map(|(stiffness, ratio)| stiffness * ratio).collect(), Some(note))
 }
 
 /// What no other format has a place for.

@@ -9,6 +9,10 @@ const UNIT: f64 = 0.01;
 /// The scalar of a rotation by 60 degrees: above it a quaternion is close to level.
 const CLOSE_TO_LEVEL: f64 = 0.866;
 
+/// Greatest qw and qx, and least other components, of what looks like a rotation about z with its scalar last.
+const NO_COMPONENT: f64 = 1e-3;
+const A_COMPONENT: f64 = 0.1;
+
 /// Why four numbers are probably not the quaternion (w, x, y, z) that was meant.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("the quaternion {} {}: expected {}", self.value(), self.fault(), self.expected())]
@@ -25,7 +29,8 @@ pub enum QuaternionError {
         /// Its length.
         length: f64,
     },
-    /// It looks like (x, y, z, w): the first component is small and the last one large.
+    /// It looks like (x, y, z, w): the first component is small and the last one large, or it is a rotation about
+    /// z in that order, and a half turn that puts the platform on its side in this one.
     Order {
         /// The quaternion.
         given: [f64; 4],
@@ -48,7 +53,12 @@ impl QuaternionError {
         match self {
             Self::Undefined { .. } => "is zero or not finite".to_owned(),
             Self::Length { length, .. } => format!("has the length {length:.4}"),
-            Self::Order { .. } => "has a small qw and a large qz, as if it were qx,qy,qz,qw".to_owned(),
+            Self::Order { given: [_, _, _, qz], .. } if qz.abs() > CLOSE_TO_LEVEL => {
+                "has a small qw and a large qz, as if it were qx,qy,qz,qw".to_owned()
+            }
+            Self::Order { .. } => {
+                "has neither qw nor qx, as if it were qx,qy,qz,qw of a rotation about z".to_owned()
+            }
         }
     }
 
@@ -92,7 +102,8 @@ pub fn rotation_of(given: [f64; 4]) -> Result<Rotation3<f64>, QuaternionError> {
 pub fn rotation_in_order(given: [f64; 4]) -> Result<Rotation3<f64>, QuaternionError> {
     let rotation = rotation_of(given)?;
     let [qw, qx, qy, qz] = given;
-    if qz.abs() > CLOSE_TO_LEVEL {
+    let is_about_z = [qw, qx].iter().all(|c| c.abs() < NO_COMPONENT) && qy.abs().min(qz.abs()) > A_COMPONENT;
+    if qz.abs() > CLOSE_TO_LEVEL || is_about_z {
         let (roll, pitch, yaw) = rotation.euler_angles();
         let angles = [roll, pitch, yaw].map(f64::to_degrees);
         return Err(QuaternionError::Order { given, reordered: [qz, qw, qx, qy], angles });
@@ -114,6 +125,7 @@ fn words(numbers: &[f64]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::FRAC_1_SQRT_2;
 
     #[test]
     fn a_quaternion_of_another_length_or_with_its_scalar_last_is_questioned() {
@@ -123,11 +135,17 @@ mod tests {
         let error = rotation_in_order([0.0, 0.0, 0.0871557, 0.9961947]).unwrap_err();
         let words = "would be 0.996195,0,0,0.087156; or, if the platform is turned so far, its angles";
         assert!(error.to_string().contains(words), "{error}");
+        // A rotation by 90 degrees about z as SciPy has it; with the scalar first it lies on its side.
+        let error = rotation_in_order([0.0, 0.0, FRAC_1_SQRT_2, FRAC_1_SQRT_2]).unwrap_err().to_string();
+        assert!(error.contains("would be 0.707107,0,0,0.707107") && error.contains("90,0,180"), "{error}");
         for undefined in [[0.0; 4], [f64::NAN, 0.0, 0.0, 1.0], [f64::INFINITY, 0.0, 0.0, 0.0]] {
             assert!(matches!(rotation_of(undefined), Err(QuaternionError::Undefined { .. })));
         }
         // As far as two decimals go, and a rotation by 100 degrees about z.
-        for good in [[0.71, 0.71, 0.0, 0.0], [0.99, 0.0, 0.05, 0.1], [0.642788, 0.0, 0.0, 0.766044]] {
+        // A planar platform that is upside down, too.
+        let upside_down = [0.0, 0.0, 1.0, 0.0];
+        let turned = [0.642788, 0.0, 0.0, 0.766044];
+        for good in [[0.71, 0.71, 0.0, 0.0], [0.99, 0.0, 0.05, 0.1], turned, upside_down] {
             assert!(rotation_in_order(good).is_ok(), "{good:?}");
         }
     }

@@ -1,7 +1,7 @@
 //! The nominal robot at the poses of a study, solved once for each.
 
 use cdpr_robot::{Coordinate, Pose, Robot};
-use cdpr_statics::limits::{OutOfLimits, out_of_limits};
+use cdpr_statics::limits::{OutOfLimits, in_words, out_of_limits};
 use cdpr_statics::{
     Deflection, DirectProblem, DirectSolution, DirectStart, Load, StaticsError, WantedPose, deflection,
     deflection_from,
@@ -75,9 +75,9 @@ impl Nominals {
 /// The tensions of a deflection above their limits or breaking forces, in words.
 pub(crate) fn too_much(robot: &Robot, Deflection { lengths, unloaded, loaded }: &Deflection) -> Vec<String> {
     let words = |when: &str, at: &DirectSolution| {
-        let found = out_of_limits(robot, lengths, &[&at.equilibrium]).into_iter();
-        let found = found.filter(OutOfLimits::is_too_much);
-        found.map(|one| format!("{when} the payload: {one}")).collect::<Vec<_>>()
+        let mut found = out_of_limits(robot, lengths, &[&at.equilibrium]);
+        found.retain(OutOfLimits::is_too_much);
+        in_words(&found).into_iter().map(|line| format!("{when} the payload: {line}")).collect::<Vec<_>>()
     };
     [words("without", unloaded), words("with", loaded)].concat()
 }

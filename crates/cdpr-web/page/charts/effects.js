@@ -1,6 +1,6 @@
 // The largest signed effects as bars with intervals, as SVG.
 
-import { lengthUnit, parameterWords } from "../format.js";
+import { lengthUnit } from "../format.js";
 import { map, tickLabel, ticks } from "./scale.js";
 import { fix, line, path, rect, svg, text } from "./svg.js";
 
@@ -32,7 +32,7 @@ export function effectBars(inputs, { width, count = 10, title }, palette) {
     const [a, b, middle] = [fix(x(low_mm)), fix(x(high_mm)), y + ROW / 2 - 1];
     const whisker = `M${a},${middle} H${b} M${a},${middle - 4} v8 M${b},${middle - 4} v8`;
     return [
-      text(left - 6, y + 12, parameterWords(name), palette.ink, "end"),
+      text(left - 6, y + 12, name, palette.ink, "end"),
       rect(from, y + 2, Math.max(1, to - from), ROW - 6, effect_mm < 0 ? palette.minus : palette.bar),
       path(whisker, palette.ink, 'stroke-width="1.3"'),
     ].join("");

@@ -1,10 +1,10 @@
 // Histogram and effects at the pose on screen, with what they say in a sentence.
 
 import { h, setText, whenOther } from "../dom.js";
-import { digits, entryWords, lengthUnit, parameterWords, sharePercent } from "../format.js";
+import { attribution, explainedPercent, littleWords } from "../attribution.js";
+import { digits, entryWords, lengthUnit, named, parameterWords, sharePercent } from "../format.js";
 import { effectBars, largest } from "../charts/effects.js";
 import { histogram } from "../charts/histogram.js";
-import { shares, tolerances } from "../robot.js";
 import { panel } from "./panel.js";
 
 /** @param {object} app */
@@ -78,25 +78,48 @@ export function chartsPanel(app) {
   }
 }
 
-/** What matters most, in a sentence. */
+/** What matters most, in a sentence; that it is not known, where effects do not say it. */
 export function sentence({ sampling, robot }) {
   const { effects, sample, failure, busy } = sampling;
   if (failure) return "";
   if (!effects) return busy ? "Robots within the tolerances are being observed …" : "";
-  const [top] = shares(effects.inputs, tolerances(robot.study));
+  const found = attribution(effects, robot.study);
   const [one] = largest(effects.inputs, 1);
-  if (!top || !one) return "";
-  if (!sampling.hasEffects)
-    return `Of the state before: ${entryWords(top.entry)} mattered most. This one is being observed …`;
-  const soFar = busy ? `, so far from ${effects.replicates} times ${effects.observations} robots` : "";
+  if (!found.parts.length || !one) return "";
+  const name = (entry) => named(entry, entryWords(entry));
+  if (!sampling.hasEffects) {
+    const before = found.winner ? `Of the state before: ${name(found.winner)} mattered most. ` : "";
+    return `${before}This state is being observed …`;
+  }
+  const { observations, replicates } = effects;
+  const robots = `${replicates} times ${observations} robots`;
+  if (found.few) return busy ? `So far ${robots} are observed …` : fewWords(robots);
+  if (found.little) return `What matters most is not known here: ${littleWords(found.explained)} ${INSTEAD}`;
+  const soFar = busy ? `, so far from ${robots}` : "";
   if (one.low_mm <= 0 && one.high_mm >= 0) return `No tolerance stands out${soFar}.`;
   const length = lengths(one.effect_mm);
   return (
-    `The tolerance that matters most here${soFar}: ${entryWords(top.entry)}, with ` +
-    `${sharePercent(top.share)} of the variance that the effects explain. The largest effect of a parameter ` +
-    `is ${parameterWords(one.name)} (${one.name}), ${length(one.effect_mm)}, ` +
+    `${mostWords(found, name, soFar)} The largest effect of a parameter ` +
+    `is ${named(one.name, parameterWords(one.name))}, ${length(one.effect_mm)}, ` +
     `95 % interval ${length(one.low_mm)} to ${length(one.high_mm)}.${lossWords(sample)}`
   );
+}
+
+// What finds it where effects do not.
+const INSTEAD = "Its study, under “As commands”, finds it.";
+
+function fewWords(robots) {
+  return `What matters most is not known here: ${robots} are too few. ${INSTEAD}`;
+}
+
+// The tolerance with the largest share: whether it matters most, or has most of what the effects explain.
+function mostWords({ parts: [top], winner, explained }, name, soFar) {
+  const [of, share] = [explainedPercent(explained), sharePercent(top.share)];
+  return winner
+    ? `The tolerance that matters most here${soFar}: ${name(top.entry)}, with ${share} of what the effects ` +
+        `explain, ${of} of the variance.`
+    : `What matters most is not certain here${soFar}: the effects explain ${of} of the variance; of that ` +
+        `${name(top.entry)} has most, ${share}.`;
 }
 
 // Robots that have no deflection, where they are many.
@@ -127,7 +150,7 @@ export function effectsTitle({ inputs }) {
   const [one] = largest(inputs, 1);
   const length = lengths(one?.effect_mm ?? 0, 3);
   const list = largest(inputs, 10).map(
-    ({ name, effect_mm }) => `${parameterWords(name)} ${length(effect_mm)}`,
+    ({ name, effect_mm }) => `${name} ${length(effect_mm)}`,
   );
   return `The ten largest effects on the deflection: ${list.join(", ")}`;
 }

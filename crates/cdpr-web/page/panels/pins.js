@@ -14,7 +14,7 @@ const ROWS = [
   ["greatest tension", ({ tensions }) => withUnit(tensions[1], "N")],
   ["mean observed", ({ mean_mm }) => short(mean_mm === null ? null : mean_mm / 1e3)],
   ["standard deviation", ({ std_mm }) => short(std_mm === null ? null : std_mm / 1e3)],
-  ["matters most", ({ most }) => most ?? "none"],
+  ["matters most", ({ most }) => most ?? "not known"],
 ];
 
 /** @param {object} app */

@@ -1,8 +1,9 @@
 // The tolerances: a slider for each entry of the error model, and how many robots are observed.
 
 import { button, h, linear, select, setText, slider } from "../dom.js";
-import { entryWords, sharePercent, shownUnit } from "../format.js";
-import { isOfSetPoints, shares, tolerances, width, widthWords } from "../robot.js";
+import { attribution, blankWords } from "../attribution.js";
+import { entryWords, named, sharePercent, shownUnit } from "../format.js";
+import { isOfSetPoints, tolerances, width, widthWords } from "../robot.js";
 import { panel } from "./panel.js";
 
 const COUNTS = [512, 2048, 8192, 20000];
@@ -22,7 +23,7 @@ export function tolerancesPanel(app) {
     const [factor, unit] = shownUnit(unitOf(robot, name, entry));
     const nominal = width(entry) * factor;
     const one = slider({
-      label: `${entryWords(name)}, ${widthWords(entry)}`,
+      label: `${named(name, entryWords(name))}, ${widthWords(entry)}`,
       unit,
       scale: linear(0, 3 * nominal),
       min: 0,
@@ -36,6 +37,7 @@ export function tolerancesPanel(app) {
     one.element.append(share);
     return { name, nominal, share, isOfSetPoints: isOfSetPoints([name, entry]), ...one };
   });
+  const blank = h("p", { class: "hint" });
   const counts = [...new Set([...COUNTS, app.first.observations])].sort((a, b) => a - b);
   const options = counts.map((n) => [String(n), String(n)]);
   const count = select("observations", options, (value) => {
@@ -50,17 +52,20 @@ export function tolerancesPanel(app) {
       "How far each parameter may be off. The template's tolerances are assumptions: put in what you know.",
     ),
     ...sliders.map((one) => one.element),
+    blank,
     count.element,
     button("As in the template", () => store.set({ tolerances: {} }, { commit: true })),
   );
 
   function update() {
-    const found = sampling.effects ? shares(sampling.effects.inputs, tolerances(robot.study)) : [];
+    const found = sampling.effects ? attribution(sampling.effects, robot.study) : null;
+    const why = found ? blankWords(found) : "";
+    setText(blank, why);
     for (const { name, nominal, share, set, element, isOfSetPoints } of sliders) {
       // Kept lengths have no set-points.
       element.hidden = isOfSetPoints && store.state.way === "kept";
       set(nominal * (store.state.tolerances[name] ?? 1));
-      const part = found.find(({ entry }) => entry === name)?.share;
+      const part = why ? undefined : found?.parts.find(({ entry }) => entry === name)?.share;
       setText(share, part === undefined ? "" : sharePercent(part));
       share.classList.toggle("stale", !sampling.hasEffects);
       share.style.setProperty("--share", String(part ?? 0));

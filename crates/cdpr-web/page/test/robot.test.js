@@ -10,7 +10,6 @@ import {
   pointOf,
   pointsOf,
   scaled,
-  shares,
   studyOf,
   unobserved,
   width,
@@ -120,17 +119,6 @@ test("the study on screen has the pose, the scaled tolerances, and none that is 
   assert.ok(Math.abs(made.samplings.all.pose.quaternion[3] - 1) < 1e-15);
   assert.equal(made.samplings.all.observations, 512);
   assert.equal(made.payload, 9);
-});
-
-test("shares follow from squared effects and add up to one", () => {
-  const effects = [
-    { entry: "a", effect_mm: 3 },
-    { entry: "a", effect_mm: -4 },
-    { entry: "b", effect_mm: 5 },
-  ];
-  const found = shares(effects, { a: uniform(1), b: uniform(1) });
-  for (const { share } of found) assert.ok(Math.abs(share - 0.5) < 1e-15);
-  assert.deepEqual(shares([{ entry: "a", effect_mm: 0 }], {}), [{ entry: "a", share: 0 }]);
 });
 
 test("a slice covers the frame, and its cells are where the engine computes them", () => {

@@ -6,6 +6,7 @@ use crate::program::output::{Ending, print_sentence, table};
 use cdpr_cable::SLACK_BELOW_OWN_WEIGHTS;
 pub(crate) use cdpr_robot::decimal;
 use cdpr_robot::{CableEnd, Pose, Robot, counted, decimals_of, significant};
+use cdpr_statics::limits::{Limit, cables_in_words, in_words};
 use cdpr_statics::stiffness::Mode;
 use cdpr_statics::{Bound, DirectSolution, Equilibrium, Load, Stability};
 use serde::Serialize;
@@ -103,12 +104,32 @@ impl OutOfLimits {
     }
 
     pub(crate) fn print(list: &[Self]) {
-        list.iter().for_each(|one| print_sentence(&one.found.to_string()));
+        Self::words(list).iter().for_each(|line| print_sentence(line));
+    }
+
+    /// A line for all cables that pass the same limit.
+    fn words(list: &[Self]) -> Vec<String> {
+        in_words(&list.iter().map(|one| one.found).collect::<Vec<_>>())
+    }
+
+    /// What the cables do that bear too much, behind a verdict: `; cables 1 to 8 break`; empty if none do.
+    pub(crate) fn verdict(list: &[Self]) -> String {
+        let gravest = list.iter().filter(|one| one.is_too_much()).map(|one| one.found.limit).min();
+        let Some(gravest) = gravest else { return String::new() };
+        let same = list.iter().filter(|one| one.found.limit == gravest);
+        let cables: Vec<usize> = same.map(|one| one.found.cable).collect();
+        let s = if cables.len() == 1 { "s" } else { "" };
+        let what = match gravest {
+            Limit::BreakingForce => format!("break{s}"),
+            Limit::Strain => format!("reach{} the greatest strain", if s.is_empty() { "" } else { "es" }),
+            _ => format!("exceed{s} tension_limits.max"),
+        };
+        format!("; {} {what}", cables_in_words(&cables))
     }
 
     /// In one cell of a table.
     pub(crate) fn cell(list: &[Self]) -> String {
-        list.iter().map(|one| one.found.to_string()).collect::<Vec<_>>().join("; ")
+        Self::words(list).join("; ")
     }
 
     /// Whether the cable breaks or may not be strained so.
@@ -224,7 +245,8 @@ impl Found {
 
     /// Where it rests, and its cables.
     pub(crate) fn print(&self, name: &str, lengths: &[f64]) {
-        print_sentence(&format!("{name} rests at {}, {}.", self.place, stability_word(self.stable)));
+        let (stable, beyond) = (stability_word(self.stable), OutOfLimits::verdict(&self.out_of_limits));
+        print_sentence(&format!("{name} rests at {}, {stable}{beyond}.", self.place));
         print_cables(lengths, &self.tensions, &self.exit_tensions);
         self.print_rest();
     }

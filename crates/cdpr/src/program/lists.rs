@@ -25,6 +25,8 @@ pub(crate) struct PoseTable {
     pub(crate) poses: Vec<Pose>,
     /// Names and cells, which the answer has, too.
     pub(crate) further: Vec<(String, Vec<String>)>,
+    /// Their lines in the file, if it is a table.
+    pub(crate) lines: Option<Vec<usize>>,
 }
 
 /// Why a line, or the names, are no list.
@@ -39,9 +41,10 @@ pub(crate) fn pose_file(path: &Path, robot: &Robot) -> Result<PoseTable, Program
     {
         let refused = |reason| ProgramError::List { option: "--poses", path: path.to_owned(), reason };
         let poses = answers::poses(&String::from_utf8_lossy(&bytes)).map_err(refused)?;
-        return Ok(PoseTable { poses, further: Vec::new() });
+        return Ok(PoseTable { poses, further: Vec::new(), lines: None });
     }
     listed("--poses", (path, bytes), "a pose", |table| {
+        let lines = Some(table.lines.clone());
         let Some(header) = table.header else {
             let row = |row: &[f64]| {
                 let pose = match (row.len(), robot.plane_offset()) {
@@ -51,10 +54,12 @@ pub(crate) fn pose_file(path: &Path, robot: &Robot) -> Result<PoseTable, Program
                 pose.map_err(|error| Box::new(error) as Reason)
             };
             let columns: Vec<_> = table.columns.iter().map(|column| (column, 1.0)).collect();
-            return Ok(PoseTable { poses: rows(table, &columns, row)?, further: Vec::new() });
+            let poses = rows(table, &columns, row)?;
+            return Ok(PoseTable { poses, further: Vec::new(), lines });
         };
         let (poses, further) = named_poses(table, header, robot)?;
-        Ok(PoseTable { poses, further: further.into_iter().map(|column| passed(table, column)).collect() })
+        let further = further.into_iter().map(|column| passed(table, column)).collect();
+        Ok(PoseTable { poses, further, lines })
     })
 }
 
@@ -204,10 +209,16 @@ fn rows<T>(
     let columns: Vec<_> =
         columns.iter().map(numbers).collect::<Result<_, TableError>>().map_err(|error| error.to_string())?;
     let line = |k: usize| {
-        let numbers: Vec<f64> = columns.iter().map(|(values, factor)| values[k] * factor).collect();
+        let numbers: Vec<f64> = columns.iter().map(|(values, factor)| in_si(values[k], *factor)).collect();
         row(&numbers).map_err(|reason| at(table.lines[k], &reason))
     };
     (0..table.rows()).map(line).collect()
+}
+
+/// A number times the factor of its unit; divided where the unit is a whole part, so that 1380 mm are 1.38 m.
+fn in_si(value: f64, factor: f64) -> f64 {
+    let parts = factor.recip();
+    if parts > 1.0 && parts.fract() == 0.0 { value / parts } else { value * factor }
 }
 
 /// A reason with its line.
@@ -273,7 +284,16 @@ impl<'a> Quantities<'a> {
     }
 
     fn lacking(&self, expected: &str) -> String {
-        format!("columns {}: expected {expected}", self.names.join(","))
+        let names = self.names.join(",");
+        // A known quantity in a unit that is none of those that are known: `x_ft`.
+        let unknown = self.names.iter().find_map(|name| {
+            let (quantity, unit) = name.split_once('_')?;
+            (POSITION.contains(&quantity) && self.get(quantity).is_none()).then_some((name, unit))
+        });
+        let why = unknown.map_or_else(String::new, |(name, unit)| {
+            format!(": {name} has the unit {unit}, which is not known")
+        });
+        format!("columns {names}{why}: expected {expected}")
     }
 }
 

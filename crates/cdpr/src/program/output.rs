@@ -103,13 +103,25 @@ pub(crate) fn tell_line(line: fmt::Arguments) {
 
 /// What `println!` expands to.
 pub(crate) fn print_line(line: fmt::Arguments) {
-    if let Some(answer) = ANSWER.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
-        answer.text += &shown_lines(&line.to_string());
-        answer.text.push('\n');
-        return;
+    let text = line.to_string();
+    let line = shown_lines(&text);
+    match ANSWER.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
+        Some(answer) => {
+            answer.text += &line;
+            answer.text.push('\n');
+        }
+        None => write_line(&line),
     }
+}
+
+/// Prints a sentence on the standard output, also where the answer goes to a file.
+pub(crate) fn print_apart(sentence: &str) {
+    broken(sentence).iter().for_each(|line| write_line(&shown_lines(line)));
+}
+
+fn write_line(line: &str) {
     if UNPRINTED.get().is_none()
-        && let Err(error) = writeln!(io::stdout().lock(), "{}", shown_lines(&line.to_string()))
+        && let Err(error) = writeln!(io::stdout().lock(), "{line}")
     {
         // The first reason is kept.
         let _ = UNPRINTED.set(error);

@@ -5,11 +5,11 @@ byte.
 
 >>> import cdpr
 >>> robot = cdpr.Robot.from_file("cogiro")
->>> tolerances = {"a": {"law": {"normal": {"mean": 0, "std": 0.002}}}}
+>>> tolerances = {"a": 0.002}  # [m]
 >>> noise = {"position": 1e-4, "rotation": 1e-4, "length": 1e-4}
 >>> poses = [[x, y, z] for x in (-2, 0, 2) for y in (-1, 1) for z in (1.5, 2.5)]
->>> campaign = cdpr.calibration.simulate(robot, poses, model=tolerances, noise=noise)
->>> found = cdpr.calibration.calibrate(robot, campaign.measurements, model=tolerances, noise=noise)
+>>> campaign = cdpr.calibration.simulate(robot, poses, uncertainty=tolerances, noise=noise)
+>>> found = cdpr.calibration.calibrate(robot, campaign.measurements, uncertainty=tolerances, noise=noise)
 >>> error = found.robot.anchor_points - campaign.robot.anchor_points
 >>> bool(abs(error).max() < 2e-3)
 True

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Optional
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 from .. import _core, _inputs
 from .._core import Robot
@@ -47,7 +47,7 @@ def simulate(
     poses: ArrayLike,
     out: Optional[_inputs.Path] = None,
     *,
-    model: _inputs.Document,
+    uncertainty: Union[Mapping[str, float], _inputs.Document],
     noise: Mapping[str, float],
     unknown: Optional[Mapping[str, float]] = None,
     markers: Sequence[Sequence[float]] = (),
@@ -67,9 +67,9 @@ def simulate(
         Wanted poses, (m, 3) or (m, 7).
     out : path, optional
         File for the measurements (CSV); without one nothing is written.
-    model : path or dict
-        Error model with the tolerances, from which the deviations are drawn: its content as a
-        dictionary, or a file.
+    uncertainty : path or dict
+        The tolerances, from which the deviations are drawn: standard deviations by names of
+        parameters or groups, {"a": 0.002}, or an error model, its content or its file.
     noise : dict of float
         Standard deviations of the sensors that are there: {"position": 1e-4, "length": 1e-4}.
     unknown : dict of float, optional
@@ -107,7 +107,7 @@ def simulate(
     >>> campaign = simulate(
     ...     cdpr.Robot.from_file("cogiro"),
     ...     [[0, 0, 2], [1, 1, 2]],
-    ...     model={"a": {"law": {"normal": {"mean": 0, "std": 0.002}}}},  # [m]
+    ...     uncertainty={"a": 0.002},  # [m]
     ...     noise={"length": 1e-4},  # [m]
     ... )
     >>> campaign.measurements["l1_m"].shape
@@ -117,7 +117,7 @@ def simulate(
         robot,
         poses,
         out,
-        _inputs.document("model", model),
+        _inputs.uncertainty(uncertainty),
         _inputs.numbers(noise),
         _inputs.numbers(unknown),
         [tuple(marker) for marker in markers],

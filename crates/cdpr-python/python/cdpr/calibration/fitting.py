@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Optional
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 from .. import _core, _inputs
 from .._core import Robot
@@ -61,7 +61,7 @@ class Calibrated(Table):
         super().__init__({**summary, "parameters": rows})
         #: The calibrated robot.
         self.robot = robot
-        #: What is known of its errors, a dictionary of the format `cdpr-errors/1`: a `model` for another
+        #: What is known of its errors, a dictionary of the format `cdpr-errors/1`: the `uncertainty` of another
         #: calibration, or an error model of a study.
         self.posterior: dict[str, Any] = found["posterior"]
         #: Content of `summary.json`.
@@ -113,7 +113,7 @@ def calibrate(
     out: Optional[_inputs.Path] = None,
     *,
     noise: Optional[Mapping[str, float]] = None,
-    model: Optional[_inputs.Document] = None,
+    uncertainty: Optional[Union[Mapping[str, float], _inputs.Document]] = None,
     parameters: Sequence[str] = (),
     share: Sequence[str] = (),
     unknown: Optional[Mapping[str, Optional[float]]] = None,
@@ -142,11 +142,12 @@ def calibrate(
     noise : dict of float, optional
         Standard deviations of the sensors [SI units]: {"position": 1e-4, "length": 1e-4}, and
         covariances of two columns: {"cov_x_m_y_m": 5e-9}.
-    model : path or dict, optional
-        Error model with the tolerances, the prior: its content as a dictionary, or a file; without one
-        all anchor and exit points, mass and modulus are sought without prior.
+    uncertainty : path or dict, optional
+        The tolerances, the prior: standard deviations by names of parameters or groups, {"a": 0.002},
+        or an error model, its content or its file; without it all anchor and exit points, mass and
+        modulus are sought without prior.
     parameters : sequence of str, optional
-        Parameters or groups that are sought without prior, instead of a model.
+        Parameters or groups that are sought without prior, instead of `uncertainty`.
     share : sequence of str, optional
         Parameters with one deviation in common: groups, "r", or lists, "r1+r2".
     unknown : dict of float or None, optional
@@ -159,11 +160,10 @@ def calibrate(
     loss : str, default 'squares'
         "squares", "huber" or "cauchy".
     starts : int, default 3
-        starts of the search, 1 to 1000, and the seed of the random ones. Twice as many are made at
-        most, until two agree; with one, nothing shows that its minimum is the least.
+        Starts of the search, 1 to 1000. Twice as many are made at most, until two agree; with one,
+        nothing shows that its minimum is the least.
     seed : int, default 1
-        starts of the search, 1 to 1000, and the seed of the random ones. Twice as many are made at
-        most, until two agree; with one, nothing shows that its minimum is the least.
+        Of the random starts.
     only_identifiable : bool, default False
         Keep the values of parameters that the data do not determine.
     folds : int, default 5
@@ -191,11 +191,11 @@ def calibrate(
     --------
     >>> import cdpr
     >>> robot = cdpr.Robot.from_file("cogiro")
-    >>> tolerances = {"mass": {"law": {"normal": {"mean": 0, "std": 2}}}}  # [kg]
+    >>> tolerances = {"mass": 2}  # [kg]
     >>> noise = {"position": 1e-5, "rotation": 1e-5, "length": 1e-6}  # [m], [rad], [m]
     >>> poses = [[x, y, 2] for x in (-1, 0, 1) for y in (-1, 1)]
-    >>> campaign = simulate(robot, poses, model=tolerances, noise=noise)
-    >>> calibrate(robot, campaign.measurements, model=tolerances, noise=noise).parameters
+    >>> campaign = simulate(robot, poses, uncertainty=tolerances, noise=noise)
+    >>> calibrate(robot, campaign.measurements, uncertainty=tolerances, noise=noise).parameters
     ['mass']
     """
     calibrated, text = _core.calibrate(
@@ -203,7 +203,7 @@ def calibrate(
         _inputs.table("measurements", measurements),
         out,
         _inputs.numbers(noise),
-        None if model is None else _inputs.document("model", model),
+        None if uncertainty is None else _inputs.uncertainty(uncertainty),
         list(parameters),
         list(share),
         list((unknown or {}).items()),

@@ -7,6 +7,7 @@ use crate::program::questions;
 use cdpr_study::{IfExists, check_replaceable, is_not_finite, write_file};
 use serde::Serialize;
 use serde_json::Value;
+use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
 /// How the results are printed.
@@ -101,6 +102,16 @@ impl Printing {
         self.out.as_deref().filter(|path| is_csv(path) && self.format.is_none())
     }
 
+    /// Whether a reader at a terminal gets the answer as text.
+    pub(crate) fn is_brief(&self) -> bool {
+        !self.is_to_file() && self.format() == Format::Text && io::stdout().is_terminal()
+    }
+
+    /// Whether the answer goes to a file.
+    pub(crate) fn is_to_file(&self) -> bool {
+        self.out.as_deref().is_some_and(|path| path.as_os_str() != "-")
+    }
+
     /// Prints an answer that has a table of numbers: as CSV, or in a file for a table, the table alone; in
     /// JSON `whole` has its rows.
     pub(crate) fn with_table<T: Serialize>(
@@ -160,6 +171,11 @@ impl Overwrite {
     /// What becomes of them.
     pub(crate) fn if_exists(&self) -> IfExists {
         IfExists::overwriting(self.overwrite)
+    }
+
+    /// Whether they are to be replaced.
+    pub(crate) fn is_wanted(&self) -> bool {
+        self.overwrite
     }
 
     /// Writes a file of the user's choice.

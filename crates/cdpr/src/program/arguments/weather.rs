@@ -79,6 +79,10 @@ fn weather(with: &With, velocity: Option<[f64; 3]>, blows: bool) -> Result<Optio
         ice: value("ice")?,
         creep: value("creep")?,
     };
+    // In a sweep over temperatures one may be none.
+    if with.value("warmer", None, number)? == Some(0.0) {
+        (found.cable_expansion, found.frame_expansion) = (0.0, 0.0);
+    }
     if let Some(profile) = with.value("wind_profile", None, profile)? {
         if !blows {
             let expected = "--with wind_profile: expected a wind, too, which it changes";

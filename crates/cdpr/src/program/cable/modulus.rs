@@ -47,9 +47,9 @@ pub(crate) struct Settings {
     printing: Printing,
 }
 
-/// A range `p-q` [%].
+/// A range `p-q` or `p:q` [%].
 fn range(text: &str) -> Result<(f64, f64), String> {
-    let ends = text.split_once('-').ok_or_else(|| format!("`{text}`: expected p-q, such as 10-30"))?;
+    let ends = text.split_once(['-', ':']).ok_or_else(|| format!("`{text}`: expected p-q, such as 10-30"))?;
     Ok((number(ends.0)?, number(ends.1)?))
 }
 
@@ -129,26 +129,22 @@ fn print(found: &Found, specimen: &Specimen) {
         let elongation = (1e12 * specimen.elongation_error).round() / 1e9;
         let force = specimen.force_error;
         print_sentence(&format!(
-            "While loading, from {from_percent} to {to_percent} %: {modulus:.2} GPa +- {error:.2} GPa, where \
-             errors, of {force} N and {elongation} mm, are independent."
+            "{modulus:.2} GPa +- {error:.2} GPa while loading from {from_percent} to {to_percent} %."
+        ));
+        print_sentence(&format!(
+            "Errors of {force} N and {elongation} mm are taken as independent; they add up at most to \
+             +- {:.2} GPa.",
+            loading.greatest_uncertainty_gpa
         ));
     }
-    let mut rows = table(&[
-        "range [%]",
-        "loading [GPa]",
-        "independent",
-        "greatest",
-        "unloading [GPa]",
-        "independent",
-        "greatest",
-    ]);
+    let mut rows = table(&["range [%]", "phase", "modulus [GPa]", "+-, independent", "+-, greatest"]);
     for range in &found.ranges {
-        let cells = |of: &Modulus| {
-            [of.modulus_gpa, of.standard_uncertainty_gpa, of.greatest_uncertainty_gpa]
-                .map(|value| format!("{value:.2}"))
-        };
         let name = format!("{} to {}", range.from_percent, range.to_percent);
-        rows.add_row([name].into_iter().chain(cells(&range.loading)).chain(cells(&range.unloading)));
+        for (phase, of) in [("loading", &range.loading), ("unloading", &range.unloading)] {
+            let cells = [of.modulus_gpa, of.standard_uncertainty_gpa, of.greatest_uncertainty_gpa]
+                .map(|value| format!("{value:.2}"));
+            rows.add_row([name.clone(), phase.to_owned()].into_iter().chain(cells));
+        }
     }
     println!("{rows}\nthe loop dissipates {:.4} J", found.dissipated_energy_j);
 }

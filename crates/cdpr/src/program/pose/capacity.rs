@@ -6,7 +6,7 @@ use crate::program::answer::{OutOfLimits, decimal};
 use crate::program::arguments::{FreeArguments, With, count, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
-use crate::program::pose::at_pose::{Failure, RobotAtPose, Row};
+use crate::program::pose::at_pose::{Brief, Failure, RobotAtPose, Row};
 use crate::program::questions;
 use crate::program::wrenches::WrenchArguments;
 use cdpr_assess::{
@@ -167,6 +167,16 @@ impl Row for Answer {
             least.map(|towards| format!("{:?}", towards.azimuth_deg)).or_else(|| why(&self.no_tilt)),
         ];
         figures.chain(distances.map(Option::unwrap_or_default)).collect()
+    }
+
+    fn brief(&self) -> Vec<Brief> {
+        let number = |shown: &Shown| shown.value;
+        let payload = Brief::Least("payload", "kg", number(&self.payload.recomputed));
+        vec![payload, Brief::Least("margin", "N", number(&self.margin.recomputed))]
+    }
+
+    fn wrong(&self) -> String {
+        "where cables cross or the platform falls".to_owned()
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {

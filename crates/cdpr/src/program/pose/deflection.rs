@@ -5,7 +5,7 @@ use crate::program::arguments::poses::as_numbers;
 use crate::program::arguments::{WEATHER, WindArgument, With, note_pulleys, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, Ending, print_sentence, table};
-use crate::program::pose::at_pose::{RobotAtFreePose, Row, cells, numbered};
+use crate::program::pose::at_pose::{Brief, RobotAtFreePose, Row, cells, numbered};
 use crate::program::questions;
 use cdpr_robot::{Pose, Robot, Vector3, Vector6, decimals_of, visible};
 use cdpr_statics::weather::{RestInWeather, Weather, in_weather};
@@ -96,6 +96,11 @@ impl Row for Answer {
         self.found_pose
     }
 
+    fn brief(&self) -> Vec<Brief> {
+        let most = Brief::Most("|dp|", "mm", Some(self.magnitude_mm));
+        vec![most, Brief::tensions("loaded at", &self.loaded.tensions)]
+    }
+
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.unloaded.out_of_limits, &self.loaded.out_of_limits]
     }
@@ -119,12 +124,25 @@ impl Answer {
         }
     }
 
+    /// What cables do that bear too much, with the load or already without it.
+    fn beyond(&self) -> String {
+        let [without, with] =
+            [&self.unloaded, &self.loaded].map(|of| OutOfLimits::verdict(&of.out_of_limits));
+        match (with.is_empty(), without.is_empty()) {
+            (true, false) => format!("{without} without the load"),
+            _ => with,
+        }
+    }
+
     fn print(&self, heading: &str, details: bool) {
+        let beyond = self.beyond();
         let stays = match self.loaded.is_stable() {
-            true => "it stays stable",
-            false => "it is unstable then",
+            true if beyond.is_empty() => "; it stays stable",
+            true => "",
+            false => "; it is unstable then",
         };
-        print_sentence(&format!("{heading} is displaced by {} mm; {stays}.", visible(self.magnitude_mm, 5)));
+        let moved = visible(self.magnitude_mm, 5);
+        print_sentence(&format!("{heading} is displaced by {moved} mm{beyond}{stays}."));
         println!("dp = {} mm", vector(&self.deflection_mm, decimals_of(self.deflection_mm, 5)));
         if self.magnitude_mm == 0.0 {
             println!("no displacement above rounding, {:.1e} mm", self.rounding_mm);
@@ -212,8 +230,9 @@ impl AnswerInWeather {
     fn print(&self, heading: &str, details: bool) {
         let Self { still, in_weather } = self;
         print_sentence(&format!(
-            "{heading} is displaced by {} mm in this weather.",
-            visible(in_weather.magnitude_mm, 5)
+            "{heading} is displaced by {} mm in this weather{}.",
+            visible(in_weather.magnitude_mm, 5),
+            OutOfLimits::verdict(&in_weather.out_of_limits)
         ));
         println!("dp = {} mm", vector(&in_weather.deflection_mm, decimals_of(in_weather.deflection_mm, 5)));
         println!("rotated by {} degrees", vector(&in_weather.rotation_deg, 5));
@@ -267,6 +286,12 @@ impl Row for AnswerInWeather {
 
     fn found_pose(&self) -> Option<Pose> {
         self.still.found_pose
+    }
+
+    fn brief(&self) -> Vec<Brief> {
+        let InWeather { magnitude_mm, tensions, .. } = &self.in_weather;
+        let most = Brief::Most("displaced", "mm", Some(*magnitude_mm));
+        vec![most, Brief::tensions("in the weather at", tensions)]
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {

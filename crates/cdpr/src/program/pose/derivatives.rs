@@ -9,7 +9,7 @@ use crate::program::answer::{OutOfLimits, bound_name, decimal};
 use crate::program::arguments::{self, Format, UncertaintyArgument, WEATHER, WindArgument, With, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, Ending, print_sentence, table, wide_table};
-use crate::program::pose::at_pose::{RobotAtFreePose, Row, cells};
+use crate::program::pose::at_pose::{Brief, RobotAtFreePose, Row, cells};
 use crate::program::pose::derivatives::amplitude::Amplitude;
 use crate::program::pose::derivatives::leading::{LEADING, handy_unit};
 use crate::program::pose::derivatives::uncertainty::Uncertainty;
@@ -380,6 +380,11 @@ impl Row for Slopes {
         let swing = swing.map(|of| [of.platform_frequency_hz, of.platform_share, of.frequency_gap]);
         let swing = (0..3).map(|k| swing.map_or_else(String::new, |all| format!("{:?}", all[k])));
         slopes.chain([one_sided.join(" ")]).chain(swing).collect()
+    }
+
+    fn brief(&self) -> Vec<Brief> {
+        let swing = self.swing.as_ref().map(|of| of.platform_frequency_hz);
+        vec![Brief::Shown("platform swings at", "Hz", swing)]
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {

@@ -5,9 +5,10 @@ use crate::program::arguments::poses::{COLUMNS, pose_numbers};
 use crate::program::arguments::{FreeArguments, With, number, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence};
-use crate::program::pose::at_pose::{RobotAtPose, Row, cells, numbered};
+use crate::program::pose::at_pose::{Brief, RobotAtPose, Row, cells, numbered};
 use cdpr_robot::{Pose, Robot};
 use cdpr_statics::free_coordinates::{FreeSolution, FreeSolutions, free_solutions};
+use cdpr_statics::limits::cables_in_words;
 use cdpr_statics::{
     DirectProblem, InversePath, InverseSolution, Load, Stability, StaticsError, WantedPose, inverse,
 };
@@ -82,6 +83,14 @@ impl Row for OnPath {
         [self.jump.to_string()].into_iter().chain(self.answer.cells()).collect()
     }
 
+    fn brief(&self) -> Vec<Brief> {
+        self.answer.brief()
+    }
+
+    fn jumps(&self) -> bool {
+        self.jump
+    }
+
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         self.answer.out_of_limits()
     }
@@ -141,6 +150,11 @@ impl Stays {
         }
     }
 
+    fn brief(&self, tensions: &[f64]) -> Vec<Brief> {
+        let least = Brief::Shown("softest motion", "N/m", Some(self.least_stiffness));
+        vec![Brief::tensions("tensions", tensions), least]
+    }
+
     fn word(&self) -> &'static str {
         answer::stability_word(self.stable)
     }
@@ -152,8 +166,9 @@ impl Stays {
 }
 
 /// The sentence that a pose is held, and how.
-fn held(heading: &str, tensions: &[f64], stays: &Stays) -> String {
-    format!("{heading}: tensions of {} hold it, {}.", answer::tension_range(tensions), stays.word())
+fn held(heading: &str, tensions: &[f64], stays: &Stays, beyond: &[OutOfLimits]) -> String {
+    let (range, beyond) = (answer::tension_range(tensions), OutOfLimits::verdict(beyond));
+    format!("{heading}: tensions of {range} hold it, {}{beyond}.", stays.word())
 }
 
 /// A cable that hangs in a loop.
@@ -210,6 +225,10 @@ impl Row for Rest {
         cells(numbers).into_iter().chain([stays.stable.to_string(), self.others.len().to_string()]).collect()
     }
 
+    fn brief(&self) -> Vec<Brief> {
+        self.first.stays.brief(&self.first.tensions)
+    }
+
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.first.out_of_limits]
     }
@@ -226,7 +245,7 @@ impl Rest {
 
     fn print(&self, heading: &str) {
         let Resting { lengths, tensions, exit_tensions, stays, .. } = &self.first;
-        print_sentence(&held(heading, tensions, stays));
+        print_sentence(&held(heading, tensions, stays, &self.first.out_of_limits));
         answer::print_cables(lengths, tensions, exit_tensions);
         self.first.stays.print();
         OutOfLimits::print(&self.first.out_of_limits);
@@ -283,6 +302,10 @@ impl Row for Answer {
         numbers.into_iter().chain([stable.to_string()]).chain(cells([least_stiffness])).collect()
     }
 
+    fn brief(&self) -> Vec<Brief> {
+        self.stays.brief(&self.tensions)
+    }
+
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.out_of_limits]
     }
@@ -308,13 +331,16 @@ impl Answer {
     }
 
     fn print(&self, heading: &str) {
-        print_sentence(&held(heading, &self.tensions, &self.stays));
+        print_sentence(&held(heading, &self.tensions, &self.stays, &self.out_of_limits));
         answer::print_cables(&self.lengths, &self.tensions, &self.exit_tensions);
         self.stays.print();
         OutOfLimits::print(&self.out_of_limits);
-        for (i, bound) in self.report.active.iter().enumerate() {
-            if let Some(bound) = bound {
-                println!("cable {} rests on its {bound}imum tension", i + 1);
+        for bound in ["min", "max"] {
+            let active = self.report.active.iter().enumerate().filter(|(_, active)| **active == Some(bound));
+            let cables: Vec<usize> = active.map(|(i, _)| i).collect();
+            let rests = if cables.len() == 1 { "rests on its" } else { "rest on their" };
+            if !cables.is_empty() {
+                print_sentence(&format!("{} {rests} {bound}imum tension", cables_in_words(&cables)));
             }
         }
         self.report.residual.print();

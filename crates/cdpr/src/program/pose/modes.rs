@@ -7,7 +7,7 @@ use crate::program::arguments::poses::{self, as_numbers};
 use crate::program::arguments::{self, FreeArguments, With, number, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
-use crate::program::pose::at_pose::{RobotAtPose, Row};
+use crate::program::pose::at_pose::{Brief, RobotAtPose, Row};
 use crate::program::questions;
 use crate::program::said::note;
 use cdpr_dynamics::{Mode, Modes, Rotor, Swing, Wanted};
@@ -223,6 +223,13 @@ impl Row for Answer {
         self.found_pose
     }
 
+    fn brief(&self) -> Vec<Brief> {
+        let lowest = self.modes.first().map(|mode| mode.frequency_hz);
+        let own = self.platform.as_ref().filter(|platform| platform.platform_share >= OWN);
+        let platform = Brief::Shown("platform", "Hz", own.map(|platform| platform.frequency_hz));
+        vec![Brief::Least("lowest", "Hz", lowest), platform]
+    }
+
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.out_of_limits]
     }
@@ -273,7 +280,13 @@ impl Answer {
 
     fn print(&self, heading: &str) {
         let (counted, below) = (self.counted, self.complete_below_hz);
-        print_sentence(&format!("{heading}: {counted} natural motions up to {below:.4} Hz."));
+        let lowest = self.modes.iter().map(|mode| mode.frequency_hz).min_by(f64::total_cmp);
+        match lowest {
+            Some(lowest) => print_sentence(&format!(
+                "{heading}: lowest natural frequency {lowest:.4} Hz; {counted} motions up to {below:.4} Hz."
+            )),
+            None => print_sentence(&format!("{heading}: no natural motions up to {below:.4} Hz.")),
+        }
         if let Some(Swinging { frequency_hz, platform_share }) = &self.platform {
             print_sentence(&format!("{}.", swinging(*frequency_hz, *platform_share)));
         }

@@ -6,11 +6,11 @@ use crate::program::answer::OutOfLimits;
 use crate::program::arguments::{self, FigureArgument, UncertaintyArgument, With, figure};
 use crate::program::error::ProgramError;
 use crate::program::output::Ending;
-use crate::program::pose::at_pose::{RobotAtPose, Row, cells, numbered};
+use crate::program::pose::at_pose::{Brief, RobotAtPose, Row, cells, numbered};
 use crate::program::said::{missing_frequencies, note};
 use cdpr_assess::{Bands, Path, PathPose};
 use cdpr_report::path_view;
-use cdpr_robot::{Robot, broken, counted, significant};
+use cdpr_robot::Robot;
 use cdpr_statics::{Deflection, Load};
 use moves::INSTEAD;
 use serde::Serialize;
@@ -54,21 +54,18 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let model = errors.model(&robot)?;
     let mut path = Path::new(&robot, load, model.as_ref())?;
     let mut passed = Vec::new();
-    let mut along = Along::default();
     let mut solve = |pose: &_| {
         let found = path.solve(pose);
-        along.pass(found.as_ref().ok());
         if figure.is_some() {
             passed.push(found.clone().ok());
         }
         found
     };
     let ending = if model.is_some() {
-        at.answer_in_order(&robot, |pose| Ok(Banded(Passed::new(&robot, solve(pose)?))))?
+        at.answer_in_order(&robot, |pose| Ok(Banded(Passed::new(&robot, &load, solve(pose)?))))?
     } else {
-        at.answer_in_order(&robot, |pose| Ok(Passed::new(&robot, solve(pose)?)))?
+        at.answer_in_order(&robot, |pose| Ok(Passed::new(&robot, &load, solve(pose)?)))?
     };
-    along.tell(load != Load::none());
     missing_frequencies(&robot).iter().for_each(|why| note(format_args!("{why}")));
     if let Some(file) = figure {
         file.write(&at.printing.overwrite, &path_view(&robot, &load, &passed)?)?;
@@ -76,54 +73,11 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     Ok(ending)
 }
 
-/// What a path has as a whole. It is printed apart from the table, which programs read.
-#[derive(Default)]
-struct Along {
-    poses: usize,
-    held: usize,
-    jumps: usize,
-    /// Least and greatest tension [N], and the greatest |dp| [m] with its pose, from 1.
-    tensions: Option<[f64; 2]>,
-    farthest: Option<(f64, usize)>,
-}
-
-impl Along {
-    fn pass(&mut self, found: Option<&PathPose>) {
-        self.poses += 1;
-        let Some(found) = found else { return };
-        self.held += 1;
-        self.jumps += usize::from(found.jump);
-        for tension in &found.tensions {
-            let [least, greatest] = self.tensions.unwrap_or([*tension; 2]);
-            self.tensions = Some([least.min(*tension), greatest.max(*tension)]);
-        }
-        let size = found.deflection.displacement().norm();
-        if self.farthest.is_none_or(|(known, _)| size > known) {
-            self.farthest = Some((size, self.poses));
-        }
-    }
-
-    fn tell(&self, is_loaded: bool) {
-        let Self { poses, held, jumps, .. } = self;
-        let mut sentence = format!("{held} of {} held", counted(*poses, "pose"));
-        if let (Some([least, greatest]), Some((size, pose))) = (self.tensions, self.farthest) {
-            let [least, greatest] = [least, greatest].map(|tension| significant(tension, 3));
-            let of = if is_loaded { "unloaded at" } else { "tensions" };
-            sentence += &format!(", {of} {least} to {greatest} N");
-            if is_loaded {
-                sentence += &format!(", |dp| up to {} mm at pose {pose}", significant(1e3 * size, 3));
-            }
-        }
-        if *jumps > 0 {
-            sentence += &format!(", {} of the lengths", counted(*jumps, "jump"));
-        }
-        broken(&(sentence + ".")).iter().for_each(|line| eprintln!("{line}"));
-    }
-}
-
 /// A pose of a path, in SI units unless a name says otherwise.
 #[derive(Serialize)]
 struct Passed {
+    #[serde(skip)]
+    is_loaded: bool,
     /// Whether the lengths may jump here.
     jump: bool,
     /// Unstrained lengths.
@@ -157,11 +111,12 @@ struct Passed {
 }
 
 impl Passed {
-    fn new(robot: &Robot, found: PathPose) -> Self {
+    fn new(robot: &Robot, load: &Load, found: PathPose) -> Self {
         let PathPose { jump, tensions, exit_tensions, sags, deflection, bands, .. } = found;
         let dp = 1e3 * deflection.displacement();
         let Deflection { lengths, unloaded, loaded } = deflection;
         Self {
+            is_loaded: *load != Load::none(),
             jump,
             tensions,
             exit_tensions,
@@ -211,6 +166,21 @@ impl Row for Passed {
         first.chain(frequencies).chain([slack.join(" ")]).collect()
     }
 
+    fn brief(&self) -> Vec<Brief> {
+        let least = Brief::Shown("stiffness", "N/m", Some(self.least_stiffness));
+        match self.is_loaded {
+            false => vec![Brief::tensions("tensions", &self.tensions), least],
+            true => {
+                let tensions = Brief::tensions("unloaded at", &self.tensions);
+                vec![tensions, Brief::Most("|dp|", "mm", Some(self.magnitude_mm)), least]
+            }
+        }
+    }
+
+    fn jumps(&self) -> bool {
+        self.jump
+    }
+
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.out_of_limits]
     }
@@ -244,6 +214,14 @@ impl Row for Banded {
         let others = [magnitude.map(|std| 1e3 * std), *least_stiffness, *platform_frequency];
         let others = others.map(|std| std.map(|std| format!("{std:?}")).unwrap_or_default());
         passed.cells().into_iter().chain(numbers).chain(others).collect()
+    }
+
+    fn brief(&self) -> Vec<Brief> {
+        self.0.brief()
+    }
+
+    fn jumps(&self) -> bool {
+        self.0.jump
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {

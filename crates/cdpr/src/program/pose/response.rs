@@ -7,7 +7,7 @@ use crate::program::arguments::{
 };
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
-use crate::program::pose::at_pose::{RobotAtPose, Row};
+use crate::program::pose::at_pose::{Brief, RobotAtPose, Row};
 use crate::program::pose::modes::with_inertia;
 use cdpr_dynamics::{Damping, FrequencyResponse, Modes, PointMotion, ShakenPoint, Wanted, worst_amplitude};
 use cdpr_report::{Amplitudes, amplitudes};
@@ -230,7 +230,7 @@ impl Answer {
             Self::print_peaks(&peaks);
         }
         if self.drag_per_s == 0.0 {
-            println!("{NO_DRAG}");
+            print_sentence(NO_DRAG);
         }
         OutOfLimits::print(&self.out_of_limits);
     }
@@ -251,7 +251,8 @@ impl Answer {
         }
         println!("{rows}");
         println!("amplitude: of a force in the worst direction, |(x, y, z)| of the motion");
-        println!("x, y, z along: by a force along the axis; winches: the one that moves the point most");
+        println!("x, y, z along: by a force along the axis");
+        println!("winches: the one that moves the point most");
     }
 
     /// A line of CSV for each frequency.
@@ -303,6 +304,12 @@ impl Row for Answer {
 
     fn found_pose(&self) -> Option<Pose> {
         self.found_pose
+    }
+
+    fn brief(&self) -> Vec<Brief> {
+        let peak = self.peak();
+        let most = Brief::Most("peak", "mm/N", peak.map(|at| 1e3 * at.amplitude_m_per_n));
+        vec![most, Brief::Shown("peak at", "Hz", peak.map(|at| at.frequency_hz))]
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {

@@ -14,7 +14,7 @@ use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
 use crate::program::pose::at_pose::RobotAtPose;
 use crate::program::pose::modes::with_inertia;
-use crate::program::pose::safety::case::{Case, Greatest, Rest, factor};
+use crate::program::pose::safety::case::{Case, Factor, Greatest, Rest};
 use crate::program::pose::safety::proof::Proof;
 use crate::program::pose::safety::weather::InWeather;
 use cdpr_assess::{
@@ -85,10 +85,10 @@ struct Answer {
     /// Greatest tension allowed, and breaking force of each cable, `null` where it is not known [N].
     greatest_allowed: Vec<f64>,
     breaking_forces: Vec<Option<f64>>,
-    /// The greatest tension before the break, and the least breaking force over greatest tension; `null`
-    /// where a breaking force is not known.
+    /// The greatest tension before the break, and the safety factor then.
     greatest_tension: Greatest,
-    safety_factor: Option<f64>,
+    #[serde(flatten)]
+    factor: Factor,
     broken: Vec<Case>,
     /// Height that is taken for the ground where the robot file has none, if the platform comes below it [m].
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -139,7 +139,7 @@ impl Answer {
             greatest_allowed: (0..all).map(|i| robot.limits(i).max).collect(),
             breaking_forces: robot.cables.iter().map(|cable| cable.properties.breaking_force).collect(),
             greatest_tension: Greatest { cable: greatest.0, tension: greatest.1 },
-            safety_factor: safety_factor.map(|(factor, _)| factor),
+            factor: safety_factor.into(),
             broken,
             assumed_ground: ground.filter(|_| is_below),
             found_pose: None,
@@ -257,7 +257,7 @@ impl Answer {
         });
         let Greatest { cable, tension } = self.greatest_tension;
         let (still, tension) = ("0".to_owned(), significant(tension, 4));
-        let [cable, least] = [cable.to_string(), factor(self.safety_factor)];
+        let [cable, least] = [cable.to_string(), self.factor.cell(cable)];
         rows.add_row(match followed {
             true => {
                 ["none".to_owned(), still, tension, String::new(), String::new(), cable, least, String::new()]

@@ -4,7 +4,7 @@ use crate::program::answer::{self, Neutral, OutOfLimits, decimal};
 use crate::program::arguments::poses::as_numbers;
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
-use crate::program::pose::at_pose::{RobotAtFreePose, Row, cells};
+use crate::program::pose::at_pose::{Brief, RobotAtFreePose, Row, cells};
 use cdpr_robot::{Pose, Robot, decimals_of, significant, visible};
 use cdpr_statics::WantedPose;
 use cdpr_statics::stiffness::{PoseStiffness, stiffness_at};
@@ -73,6 +73,10 @@ impl Row for Answer {
 
     fn found_pose(&self) -> Option<Pose> {
         self.found_pose
+    }
+
+    fn brief(&self) -> Vec<Brief> {
+        vec![Brief::Least("softest motion", "N/m", Some(self.least_stiffness))]
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {

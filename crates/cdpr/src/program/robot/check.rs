@@ -26,7 +26,10 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
             .map(|(count, word)| if count > 0 { counted(count, word) } else { format!("no {word}s") });
         let cables = counted(robot.cables.len(), "cable");
         print_sentence(&format!("{}: {cables}, {warned}, {notes}.", shown(&robot.name)));
-        for Finding { severity, field, value, why, remedy } in findings {
+        // Warnings first.
+        let is_note = |finding: &&Finding| finding.severity != Severity::Warning;
+        let (noted, warned): (Vec<_>, Vec<_>) = findings.iter().partition(is_note);
+        for Finding { severity, field, value, why, remedy } in warned.into_iter().chain(noted) {
             print_sentence(&format!("{severity}: {} is {value}: {why}", numbered(field)));
             print_sentence(&format!("remedy: {remedy}"));
         }

@@ -75,8 +75,8 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     match &settings.out {
         Some(out) => {
             settings.overwrite.write(out, &text)?;
-            lines.iter().for_each(|line| print_sentence(line));
             println!("{}: {}, {}", out.display(), shown(&robot.name), counted(robot.cables.len(), "cable"));
+            lines.iter().for_each(|line| print_sentence(line));
         }
         None => {
             println!("{}", text.trim_end());

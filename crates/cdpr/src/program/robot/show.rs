@@ -37,13 +37,16 @@ struct Shown {
     axial_stiffness: [f64; 2],
     min_tension: [f64; 2],
     max_tension: [f64; 2],
-    /// Least breaking force.
-    breaking_force: Option<f64>,
+    /// Least and greatest breaking force that is known, and cables whose own is not known.
+    breaking_force: Option<[f64; 2]>,
+    unknown_breaking_forces: usize,
     /// Ends at which the greatest tension is limited.
     max_at: Vec<CableEnd>,
     distribution: &'static str,
     has_reference: bool,
     has_laws: bool,
+    /// Least and greatest EA of the segments of elastic laws.
+    law_stiffness: Option<[f64; 2]>,
     grade: Option<Grade>,
     source: Option<String>,
     assumed: Vec<String>,
@@ -75,7 +78,8 @@ impl Shown {
             axial_stiffness: range(cables.iter().map(|cable| cable.properties.axial_stiffness())),
             min_tension: range(limits().map(|limits| limits.min)),
             max_tension: range(limits().map(|limits| limits.max)),
-            breaking_force: breaking.reduce(f64::min),
+            breaking_force: (breaking.clone().count() > 0).then(|| range(breaking.clone())),
+            unknown_breaking_forces: cables.len() - breaking.count(),
             max_at: ends.fold(Vec::new(), |mut ends, end| {
                 if !ends.contains(&end) {
                     ends.push(end);
@@ -84,12 +88,23 @@ impl Shown {
             }),
             distribution: robot.distribution.name(),
             has_reference: robot.tension_reference.is_some(),
+            law_stiffness: law_stiffness(robot),
             has_laws: cables.iter().any(|cable| cable.properties.law.is_some()),
             grade: robot.provenance.grade,
             source: robot.provenance.source.clone(),
             assumed: robot.provenance.assumed.clone(),
         }
     }
+}
+
+/// EA of the segments of all elastic laws [N], the least and the greatest.
+fn law_stiffness(robot: &Robot) -> Option<[f64; 2]> {
+    let laws = || robot.cables.iter().filter_map(|cable| Some((cable, cable.properties.law.as_ref()?)));
+    let stiffness = laws().flat_map(|(cable, law)| {
+        let scale = cable.properties.axial_stiffness();
+        law.segments().map(move |segment| scale * segment.ratio).collect::<Vec<_>>()
+    });
+    laws().next().map(|_| range(stiffness))
 }
 
 /// Least and greatest of several values.
@@ -121,7 +136,9 @@ fn print(robot: &Shown) {
     ));
     println!("exit points in a box of    {}", sides(robot.exit_points));
     println!("anchor points in a box of  {}", sides(robot.anchor_points));
-    let law = if robot.has_laws { ", with an elastic law" } else { "" };
+    let law = robot
+        .law_stiffness
+        .map_or_else(String::new, |law| format!(" by youngs_modulus, {} N by the elastic law", words(law)));
     print_sentence(&format!(
         "cables: {} kg/m, EA {} N{law}; {}",
         words(robot.linear_density),
@@ -136,9 +153,13 @@ fn print(robot: &Shown) {
             CableEnd::Exit => "exit point",
         })
         .collect();
+    let unknown = match robot.unknown_breaking_forces {
+        0 => String::new(),
+        unknown => format!(", that of {} not known", counted(unknown, "cable")),
+    };
     let breaking = robot
         .breaking_force
-        .map_or_else(String::new, |force| format!("; breaking force {} N", words([force; 2])));
+        .map_or_else(String::new, |force| format!("; breaking force {} N{unknown}", words(force)));
     let [least, greatest] = [robot.min_tension, robot.max_tension].map(words);
     let limits = match [robot.min_tension, robot.max_tension].iter().all(|[low, high]| low == high) {
         true => format!("{least} to {greatest} N"),

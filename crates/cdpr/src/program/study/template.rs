@@ -2,12 +2,13 @@
 
 use crate::program::arguments::endings;
 use crate::program::arguments::poses::pose;
-use crate::program::arguments::{self, FreeArguments, RobotArgument};
+use crate::program::arguments::{self, FreeArguments, Overwrite, RobotArgument};
 use crate::program::error::ProgramError;
 use crate::program::output::patiently;
 use crate::program::questions;
+use crate::program::said::{Said, is_said};
 use cdpr_robot::{Pose, Rotation3};
-use cdpr_study::{TEMPLATE_NOTES, template, template_cost, write_template};
+use cdpr_study::{StudyError, TEMPLATE_NOTES, template, template_cost, write_template};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -15,9 +16,11 @@ use std::path::PathBuf;
 pub(crate) struct Settings {
     #[command(flatten)]
     robot: RobotArgument,
-    /// File to write, which must not exist; if left out, the study is printed.
+    /// File to write; if left out, the study is printed.
     #[arg(short, long, value_parser = endings::json())]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
     /// Pose of the platform, level: x,y,z [m]; if left out, one near the middle of the exit points.
     #[arg(long, value_parser = pose, allow_hyphen_values = true)]
     pose: Option<Pose>,
@@ -29,7 +32,7 @@ pub(crate) struct Settings {
 }
 
 pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let Settings { robot, out, pose, payload, free } = settings;
+    let Settings { robot, out, overwrite, pose, payload, free } = settings;
     if pose.is_some_and(|pose| pose.rotation != Rotation3::identity()) {
         let expected = "--pose: expected x,y,z, a level platform; the study file takes rotations, too";
         return Err(ProgramError::Usage(expected.to_owned()));
@@ -41,12 +44,26 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let notes = format!("{TEMPLATE_NOTES}\n\n{}", template_cost(&robot));
     match out {
         Some(out) => {
-            write_template(out, path, text)?;
-            println!("{} is a study of {}\n\n{notes}", out.display(), path.display());
+            if overwrite.is_wanted() && out.is_file() {
+                // The file stays where the new one cannot be made.
+                let name = out.file_name().unwrap_or_default().to_string_lossy();
+                let made = out.with_file_name(format!(".{name}.{}", std::process::id()));
+                write_template(&made, path, text)?;
+                std::fs::rename(&made, out)
+                    .map_err(|source| StudyError::Write { path: out.clone(), source })?;
+            } else {
+                write_template(out, path, text)?;
+            }
+            println!("{} is a study of {}", out.display(), path.display());
+            if is_said(Said::Usual) {
+                println!("\n{notes}");
+            }
         }
         None => {
             println!("{}", text(&path.display().to_string())?.trim_end());
-            eprintln!("{notes}");
+            if is_said(Said::Usual) {
+                eprintln!("{notes}");
+            }
         }
     }
     Ok(())

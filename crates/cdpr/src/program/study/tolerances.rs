@@ -5,7 +5,7 @@ use crate::program::error::ProgramError;
 use crate::program::output::{Details, patiently, print_sentence, table};
 use cdpr_assess::{Limit, Limited, PricedCalibration, Reached, Tolerance, ToleranceBudget, tolerance_budget};
 use cdpr_robot::{shown, significant};
-use cdpr_study::{Estimate, OutputLimit};
+use cdpr_study::{ErrorModel, Estimate, OutputLimit};
 use std::path::PathBuf;
 
 /// The study, the sampling and the limit.
@@ -13,9 +13,9 @@ use std::path::PathBuf;
 pub(crate) struct Settings {
     /// Study file (JSON, `cdpr-study/1`), whose error model holds the tolerances.
     study: PathBuf,
-    /// Name of the sampling: pose, load and error model.
+    /// Name of the sampling: pose, load and error model; may be left out where the study has one only.
     #[arg(long)]
-    sampling: String,
+    sampling: Option<String>,
     /// What is limited: deflection_mm<VALUE, the static deflection under the load, or
     /// position_error_mm<VALUE, the distance from the wanted pose without load [mm].
     #[arg(long, value_name = "COLUMN<VALUE", value_parser = arguments::limit)]
@@ -55,10 +55,18 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     };
     limit.check()?;
     let study = patiently("checking the study", || settings.preference.open_study(&settings.study))?;
-    let sampling = study.sampling(&settings.sampling)?;
+    let names: Vec<String> = study.sampling_names().collect();
+    let name = match (&settings.sampling, names.as_slice()) {
+        (Some(name), _) | (None, [name]) => name,
+        (None, names) => {
+            let expected = format!("expected --sampling with one of {}", names.join(", "));
+            return Err(ProgramError::Usage(expected));
+        }
+    };
+    let sampling = study.sampling(name)?;
     let budget = patiently("looking for the tolerances", || tolerance_budget(&sampling, &limit))?;
     let text = |budget: &ToleranceBudget| {
-        print(budget);
+        print(budget, &sampling.errors);
         if settings.details.details {
             print_details(sampling.title, budget);
         }
@@ -67,19 +75,22 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
 }
 
 /// The answer, and each tolerance as it is and as it is to be.
-fn print(budget: &ToleranceBudget) {
+fn print(budget: &ToleranceBudget, errors: &ErrorModel) {
     budget.sentences().iter().for_each(|sentence| print_sentence(sentence));
     let mut rows = match budget.priced {
         false => table(&["tolerance", "std now", "tighten to", "times", "share of variance [%]"]),
         true => table(&["tolerance", "std now", "std then", "share [%]", "spend", "by"]),
     };
     for tolerance in &budget.tolerances {
+        let input = errors.entries.iter().position(|entry| *entry == tolerance.name);
+        let unit = input.and_then(|input| errors.unit(input)).unwrap_or_default();
+        let std = |value: f64| format!("{} {unit}", significant(value, 4)).trim_end().to_owned();
         let kept = tolerance.factor == 1.0;
         let tightened = |text: String| if kept { "-".to_owned() } else { text };
         let mut cells = vec![
             tolerance.name.clone(),
-            format!("{:.4e}", tolerance.std),
-            tightened(format!("{:.4e}", tolerance.std * tolerance.factor)),
+            std(tolerance.std),
+            tightened(std(tolerance.std * tolerance.factor)),
             format!("{:.2}", 100.0 * tolerance.share),
         ];
         if budget.priced {

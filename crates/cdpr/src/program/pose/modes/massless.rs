@@ -1,8 +1,8 @@
 //! Natural motions of the platform on cables without mass.
 
 use crate::program::answer::{self, OutOfLimits, decimal};
-use crate::program::output::table;
-use crate::program::pose::at_pose::{Row, cells, numbered};
+use crate::program::output::{print_sentence, table};
+use crate::program::pose::at_pose::{Brief, Row, cells, numbered};
 use cdpr_robot::Robot;
 use cdpr_statics::vibration::PoseModes;
 use serde::Serialize;
@@ -49,6 +49,10 @@ impl Row for Massless {
         cells(&self.frequencies_hz).into_iter().chain([lowest.unwrap_or_default()]).collect()
     }
 
+    fn brief(&self) -> Vec<Brief> {
+        vec![Brief::Least("lowest", "Hz", self.frequencies_hz.first().copied())]
+    }
+
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.out_of_limits]
     }
@@ -81,7 +85,10 @@ impl Massless {
     }
 
     pub(crate) fn print(&self, heading: &str) {
-        println!("{heading}: natural motions, of unit mass");
+        let lowest = self.frequencies_hz.iter().copied().min_by(f64::total_cmp).unwrap_or_default();
+        print_sentence(&format!(
+            "{heading}: lowest natural frequency {lowest:.4} Hz, of the platform on cables without mass."
+        ));
         let names = [
             "frequency [Hz]",
             "translation [1/\u{221a}kg]",
@@ -99,7 +106,7 @@ impl Massless {
             rows.add_row([format!("{frequency:.4}"), translation, rotation, weight, cables.join(" ")]);
         }
         println!("{rows}");
-        println!("weight and cables: share of each in the energy of the motion");
+        println!("motions of unit mass; weight and cables: share of each in the energy of the motion");
         let of_cable = |frequency: &Option<f64>| frequency.map_or("-".to_owned(), |f| format!("{f:.3}"));
         let cables: Vec<_> = self.cable_frequencies_hz.iter().map(of_cable).collect();
         println!("lowest of each cable itself, between ends at rest: {} Hz", cables.join(" "));

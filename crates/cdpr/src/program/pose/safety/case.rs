@@ -43,7 +43,8 @@ pub(super) struct Swinging {
     pub(super) time: f64,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) out_of_limits: Vec<OutOfLimits>,
-    pub(super) safety_factor: Option<f64>,
+    #[serde(flatten)]
+    pub(super) factor: Factor,
     pub(super) below_ground: bool,
     /// Difference of two computations in the tensions [N].
     pub(super) tension_difference: f64,
@@ -64,8 +65,8 @@ pub(super) struct Rest {
     pub(super) slack_cables: Vec<usize>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) out_of_limits: Vec<OutOfLimits>,
-    /// Least breaking force over greatest tension; `null` where a breaking force is not known.
-    pub(super) safety_factor: Option<f64>,
+    #[serde(flatten)]
+    pub(super) factor: Factor,
     pub(super) below_ground: bool,
     /// Whether it is turned by more than a right angle: what its cables touch then is not known.
     pub(super) turns_over: bool,
@@ -77,6 +78,31 @@ pub(super) struct Rest {
 pub(super) struct Greatest {
     pub(super) cable: usize,
     pub(super) tension: f64,
+}
+
+/// The least breaking force over greatest tension; `null` where a breaking force is not known.
+#[derive(Clone, Copy, Default, Serialize)]
+pub(super) struct Factor {
+    #[serde(rename = "safety_factor")]
+    pub(super) value: Option<f64>,
+    /// Number of its cable, from 1, which may be another one than that with the greatest tension.
+    #[serde(rename = "safety_factor_cable")]
+    pub(super) cable: Option<usize>,
+}
+
+impl From<Option<(f64, usize)>> for Factor {
+    fn from(found: Option<(f64, usize)>) -> Self {
+        Self { value: found.map(|(factor, _)| factor), cable: found.map(|(_, cable)| cable + 1) }
+    }
+}
+
+impl Factor {
+    /// In a table whose row names a cable: with its own one if that is another; empty where it is not known.
+    pub(super) fn cell(self, named: usize) -> String {
+        let Self { value: Some(value), cable: Some(cable) } = self else { return String::new() };
+        let value = significant(value, 3);
+        if cable == named { value } else { format!("{value} (cable {cable})") }
+    }
 }
 
 impl From<BrokenRest> for Rest {
@@ -92,7 +118,7 @@ impl From<BrokenRest> for Rest {
             greatest_tension: Greatest { cable: cable + 1, tension },
             slack_cables: rest.slack.iter().map(|i| i + 1).collect(),
             out_of_limits: rest.out_of_limits.into_iter().map(OutOfLimits::new).collect(),
-            safety_factor: rest.safety_factor.map(|(factor, _)| factor),
+            factor: rest.safety_factor.into(),
             below_ground: rest.below_ground,
             turns_over,
             residual: Residual::new(&rest.residual),
@@ -109,7 +135,7 @@ impl From<Swing> for Swinging {
             greatest_tension: Greatest { cable: cable + 1, tension },
             time,
             out_of_limits: swing.out_of_limits.into_iter().map(OutOfLimits::new).collect(),
-            safety_factor: swing.safety_factor.map(|(factor, _)| factor),
+            factor: swing.safety_factor.into(),
             below_ground: swing.below_ground,
             tension_difference: swing.difference.tension,
         }
@@ -220,10 +246,11 @@ impl Case {
     }
 
     /// The least safety factor at rest and on the way.
-    pub(super) fn safety_factor(&self) -> Option<f64> {
-        let at_rest = self.rest.as_ref().and_then(|rest| rest.safety_factor);
-        let swinging = self.swinging().and_then(|swing| swing.safety_factor);
-        at_rest.into_iter().chain(swinging).min_by(f64::total_cmp)
+    pub(super) fn factor(&self) -> Factor {
+        let at_rest = self.rest.as_ref().map(|rest| rest.factor);
+        let swinging = self.swinging().map(|swing| swing.factor);
+        let known = at_rest.into_iter().chain(swinging).filter_map(|of| Some((of.value?, of)));
+        known.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, of)| of).unwrap_or_default()
     }
 
     /// How far the platform moves and turns, the greatest tension at rest, its cable, and the factor.
@@ -231,7 +258,7 @@ impl Case {
         let Some(rest) = &self.rest else { return vec![String::new(); 5] };
         let Greatest { cable, tension } = rest.greatest_tension;
         let (moved, turned) = (significant(rest.moved, 4), decimal(rest.turned_deg, 2));
-        vec![moved, turned, significant(tension, 4), cable.to_string(), factor(rest.safety_factor)]
+        vec![moved, turned, significant(tension, 4), cable.to_string(), rest.factor.cell(cable)]
     }
 
     /// How far the platform moves, the greatest tension at rest; how far it swings, the greatest tension
@@ -241,7 +268,7 @@ impl Case {
         let swing = self.swinging().map(|swing| {
             let Greatest { cable, tension } = swing.greatest_tension;
             let moved = format!("{}{}", if swing.moves_away { "> " } else { "" }, short(swing.moved));
-            [moved, short(tension), cable.to_string(), factor(self.safety_factor())]
+            [moved, short(tension), cable.to_string(), self.factor().cell(cable)]
         });
         rest.unwrap_or_default().into_iter().chain(swing.unwrap_or_default()).collect()
     }
@@ -264,9 +291,4 @@ fn short(value: f64) -> String {
     const MOST: usize = 7;
     let text = significant(value, 4);
     if text.len() > MOST { format!("{value:.2e}") } else { text }
-}
-
-/// A safety factor in a table; empty where it is not known.
-pub(super) fn factor(factor: Option<f64>) -> String {
-    factor.map_or_else(String::new, |factor| significant(factor, 3))
 }

@@ -2,16 +2,16 @@
 
 use crate::program::answer::OutOfLimits;
 use crate::program::output::Ending;
-use crate::program::pose::at_pose::Row;
+use crate::program::pose::at_pose::{Brief, Row};
 use crate::program::pose::safety::Answer;
-use crate::program::pose::safety::case::{Case, Swinging};
+use crate::program::pose::safety::case::{Case, Factor, Swinging};
 use crate::program::pose::safety::proof::{self, Proof, Verdict};
 use crate::program::pose::safety::weather::{self, InWeather};
 use cdpr_assess::{CaseFactors, FactoredCase, Situation};
 use cdpr_robot::{Pose, Robot};
 
 /// Columns of a table with a row for each case.
-const CASES: [&str; 22] = [
+const CASES: [&str; 23] = [
     "case",
     "broken",
     "wind_towards_deg",
@@ -26,6 +26,7 @@ const CASES: [&str; 22] = [
     "utilization",
     "verdict",
     "safety_factor",
+    "safety_factor_cable",
     "moved_m",
     "turned_deg",
     "slack",
@@ -48,18 +49,18 @@ fn joined(cables: &[usize]) -> String {
 
 impl Answer {
     /// How a case ends without factors, its safety factor then, and what is to be said of it.
-    fn without_factors(&self, situation: &Situation) -> (String, Option<f64>, String) {
+    fn without_factors(&self, situation: &Situation) -> (String, Factor, String) {
         match situation {
-            Situation::Intact => ("held".to_owned(), self.safety_factor, String::new()),
+            Situation::Intact => ("held".to_owned(), self.factor, String::new()),
             Situation::Broken(_) => {
                 let broken = proof::broken(situation);
                 let case = self.broken.iter().find(|case| case.cables == broken);
-                case.map(|case| (case.ending(), case.safety_factor(), case.remark())).unwrap_or_default()
+                case.map(|case| (case.ending(), case.factor(), case.remark())).unwrap_or_default()
             }
             Situation::Weather(_) => {
                 let of = |weather: &InWeather| {
                     let wrong = weather.wrong().unwrap_or_default();
-                    (weather.ending(), weather.least_factor(), wrong.to_owned())
+                    (weather.ending(), weather.factor(), wrong.to_owned())
                 };
                 self.in_weather.as_ref().map(of).unwrap_or_default()
             }
@@ -91,7 +92,8 @@ impl Answer {
             number(known.map(|most| most.resistance)),
             number(case.utilization().map(|most| most.value())),
             if self.proof.is_some() { Verdict::of(case).word().to_owned() } else { String::new() },
-            number(factor),
+            number(factor.value),
+            factor.cable.map_or_else(String::new, |cable| cable.to_string()),
             number(rest.map(|rest| rest.moved)),
             number(rest.map(|rest| rest.turned.to_degrees())),
             joined(&slack),
@@ -115,6 +117,8 @@ impl Row for Answer {
             "greatest_tension_cable",
             "greatest_tension_without",
             "safety_factor",
+            "safety_factor_cable",
+            "safety_factor_without",
             "overloaded_without",
             "below_ground_without",
             "no_rest_without",
@@ -138,12 +142,17 @@ impl Row for Answer {
         let tension = self.greatest(|rest| rest.greatest_tension.tension);
         let cable = tension.and_then(|(_, case)| Some(case.rest.as_ref()?.greatest_tension.cable));
         let [value, case] = without(tension);
-        let factor = self.broken.iter().filter_map(Case::safety_factor).min_by(f64::total_cmp);
+        let factors = self.broken.iter().filter_map(|case| Some((case.factor().value?, case)));
+        let least = factors.min_by(|a, b| a.0.total_cmp(&b.0));
+        let factor_cable = least.and_then(|(_, case)| case.factor().cable);
+        let [factor, factor_case] = without(least);
         let last = [
             value,
             cable.map_or_else(String::new, |cable| cable.to_string()),
             case,
-            factor.map_or_else(String::new, |factor| format!("{factor:?}")),
+            factor,
+            factor_cable.map_or_else(String::new, |cable| cable.to_string()),
+            factor_case,
             self.names(Case::is_overloaded),
             self.names(Case::is_below_ground),
             self.names(|case| case.rest.is_none()),
@@ -175,6 +184,16 @@ impl Row for Answer {
 
     fn found_pose(&self) -> Option<Pose> {
         self.found_pose
+    }
+
+    fn brief(&self) -> Vec<Brief> {
+        let moved = self.greatest(|rest| rest.moved).map(|(moved, _)| moved);
+        let tension = self.greatest(|rest| rest.greatest_tension.tension).map(|(tension, _)| tension);
+        vec![Brief::Most("moves", "m", moved), Brief::Most("tension", "N", tension)]
+    }
+
+    fn wrong(&self) -> String {
+        "where not every case is safe".to_owned()
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {

@@ -2,7 +2,7 @@
 
 use crate::program::answer::{OutOfLimits, Residual};
 use crate::program::arguments::towards;
-use crate::program::pose::safety::case::Greatest;
+use crate::program::pose::safety::case::{Factor, Greatest};
 use cdpr_assess::{AnyWeather, DIRECTIONS, InWind, Winds};
 use cdpr_robot::{Robot, significant};
 use cdpr_statics::Load;
@@ -10,13 +10,14 @@ use cdpr_statics::limits::Limit;
 use serde::Serialize;
 
 /// Its columns in a table.
-pub(super) const COLUMNS: [&str; 7] = [
+pub(super) const COLUMNS: [&str; 8] = [
     "weather_moved_m",
     "weather_azimuth_deg",
     "weather_tension_n",
     "weather_tension_cable",
     "weather_tension_azimuth_deg",
     "weather_safety_factor",
+    "weather_safety_factor_cable",
     "weather_wrong",
 ];
 
@@ -92,8 +93,8 @@ struct OneWind {
     greatest_tension: Greatest,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
-    /// Least breaking force over greatest tension; `null` where a breaking force is not known.
-    safety_factor: Option<f64>,
+    #[serde(flatten)]
+    factor: Factor,
     below_ground: bool,
     residual: Residual,
 }
@@ -112,7 +113,7 @@ impl OneWind {
             exit_tensions: found.rest.exit_tensions.clone(),
             greatest_tension: Greatest { cable: cable + 1, tension },
             out_of_limits: found.out_of_limits.iter().copied().map(OutOfLimits::new).collect(),
-            safety_factor: found.safety_factor.map(|(factor, _)| factor),
+            factor: found.safety_factor.into(),
             below_ground: found.below_ground,
             residual: Residual::new(&found.rest.residual),
         }
@@ -177,8 +178,9 @@ impl InWeather {
     }
 
     /// The least safety factor in any wind.
-    pub(super) fn least_factor(&self) -> Option<f64> {
-        self.least_safe.as_ref().map(|of| of.factor)
+    pub(super) fn factor(&self) -> Factor {
+        let least = self.least_safe.as_ref();
+        Factor { value: least.map(|of| of.factor), cable: least.map(|of| of.cable) }
     }
 
     /// What is wrong, or not known.
@@ -258,7 +260,8 @@ impl InWeather {
             number(tight.map(|one| one.greatest_tension.tension)),
             tight.map_or_else(String::new, |one| one.greatest_tension.cable.to_string()),
             number(tight.and_then(|one| one.azimuth_deg)),
-            number(self.least_factor()),
+            number(self.factor().value),
+            self.factor().cable.map_or_else(String::new, |cable| cable.to_string()),
             self.wrong().unwrap_or_default().to_owned(),
         ]
     }

@@ -151,13 +151,13 @@ impl Answer {
         let mm = |metres: f64| significant(1e3 * metres, 3);
         let [x, y, z] = <[f64; 3]>::from(rest.position).map(|value| rounded(value, 4));
         let turned = significant(rest.rotation.angle().to_degrees(), 3);
-        print_sentence(&format!("{name}, at rest at ({x}, {y}, {z}) m, turned by {turned} deg"));
-        println!(
-            "The platform moves up to {} mm and {} deg from its rest, at {} s.",
+        print_sentence(&format!(
+            "{name} moves up to {} mm and {} deg from its rest, at {} s.",
             mm(self.greatest_distance_m),
             significant(self.greatest_rotation_rad.to_degrees(), 3),
             significant(self.at_s, 3)
-        );
+        ));
+        print_sentence(&format!("Its rest is at ({x}, {y}, {z}) m, turned by {turned} deg."));
         println!(
             "In the last quarter of {until} s it swings by up to {} mm about its mean place.",
             mm(self.swing_m)
@@ -195,13 +195,13 @@ impl Answer {
             significant(*tension_n, 2)
         );
         let Energy { drift_j, kinetic_j, lost_j, .. } = self.energy;
-        println!(
+        print_sentence(&format!(
             "{} a cable, {}; energy off by {} J of {} J.",
             self.elements(),
             counted(self.steps, "step"),
             significant(drift_j, 2),
             significant(kinetic_j, 3)
-        );
+        ));
         if lost_j > 0.0 {
             let of_chains = if self.degree.contains(&1) { ", with that which chains need" } else { "" };
             println!("Damping took {} J{of_chains}.", significant(lost_j, 3));
