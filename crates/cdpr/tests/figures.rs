@@ -54,7 +54,7 @@ fn a_width_in_millimetres_and_a_caption_in_place_of_the_title() {
 #[test]
 fn letters_have_seven_to_eight_points_at_the_width_of_a_column_and_of_a_page() {
     let folder = TempDir::new().unwrap();
-    let mut run = |width: f64, name: &str, arguments: &[&str]| {
+    let run = |width: f64, name: &str, arguments: &[&str]| {
         let figure = format!("{name}.svg,width={width}");
         cdpr_in(folder.path(), &[arguments, &["--overwrite", "--figure", &figure]].concat());
         let svg = read_to_string(folder.path().join(format!("{name}.svg"))).unwrap();

@@ -73,7 +73,7 @@ impl Axis {
         let half = match range.end - range.start > 1e-9 * size {
             true => 0.0,
             false if size > 0.0 => 1e-3 * size,
-            false => 1e-3,
+            false => 0.5,
         };
         let range = range.start - half..range.end + half;
         let size = range.start.abs().max(range.end.abs());
@@ -121,6 +121,8 @@ fn round_ticks(range: &Range<f64>, most: usize, power: i32) -> Vec<(f64, String)
     let unit = 10.0_f64.powi(power);
     let values = RangedCoordf64::from(range.start / unit..range.end / unit).key_points(BoldPoints(most));
     let step = values.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+    // Of one tick the value has the decimals.
+    let step = if step.is_finite() { step } else { values.first().copied().unwrap_or(0.0) };
     // Steps are 1, 2, 2.5 or 5 times a power of ten.
     let decimals = (0..12).find(|&d| is_whole(step * 10.0_f64.powi(d))).unwrap_or(3) as usize;
     values.into_iter().map(|value| (value * unit, number(value, decimals))).collect()

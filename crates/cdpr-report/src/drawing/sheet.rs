@@ -93,16 +93,24 @@ impl Sheet {
 /// A text broken between words into lines of at most so many characters; a longer word has a line of its own.
 pub(crate) fn lines(text: &str, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split(' ') {
+    let words: Vec<&str> = text.split(' ').collect();
+    for word in words.chunk_by(|number, unit| belong_together(number, unit)).map(|words| words.join(" ")) {
         match lines.last_mut() {
             Some(line) if line.chars().count() + 1 + word.chars().count() <= most => {
                 line.push(' ');
-                line.push_str(word);
+                line.push_str(&word);
             }
-            _ => lines.push(word.to_owned()),
+            _ => lines.push(word),
         }
     }
     lines
+}
+
+/// Whether a word is the unit of the number before it.
+fn belong_together(number: &str, unit: &str) -> bool {
+    let is_number = number.chars().all(|c| c.is_ascii_digit() || ".,()\u{2212}".contains(c));
+    let letters = unit.trim_end_matches([',', ';', '.']).chars().count();
+    is_number && letters <= 4 && unit.starts_with(|c: char| c.is_alphabetic() || c == '%')
 }
 
 #[cfg(test)]
@@ -124,5 +132,7 @@ mod tests {
         assert_eq!(lines("a bc def gh", 5), ["a bc", "def", "gh"]);
         assert_eq!(lines("abcdefg h", 3), ["abcdefg", "h"]);
         assert_eq!(lines("", 3), [""]);
+        // Numbers keep their units.
+        assert_eq!(lines("at 2 m, 50 kg", 6), ["at", "2 m,", "50 kg"]);
     }
 }

@@ -40,8 +40,8 @@ pub fn robot_view(study: &Study, sheet: Sheet) -> Result<String, ReportError> {
     if poses.is_empty() {
         return Err(ReportError::Empty { what: "no pose is held" });
     }
-    let size = [sheet.width(), sheet.height(0.0, HEIGHT)];
-    let projection = Projection::of(&scene, size);
+    let projection = Projection::of(&scene, [sheet.width(), sheet.height(0.0, HEIGHT)]);
+    let size = projection.size;
     let tensions = poses.iter().flat_map(|(pose, _)| pose.loaded.cables.iter().map(|cable| cable.tension));
     let Range { start: least, end: greatest } = extent(tensions);
     let sag = poses.iter().map(|(pose, _)| pose.loaded.greatest_sag_mm()).fold(0.0, f64::max);
@@ -86,20 +86,21 @@ fn seen([x, y, z]: [f64; 3]) -> (f64, f64) {
 }
 
 impl Projection {
-    /// Makes a projection in which the whole scene fits.
-    fn of(scene: &Scene, size: [f64; 2]) -> Self {
+    /// Makes a projection in which the whole scene fits, in a picture of this width and at most this height.
+    fn of(scene: &Scene, most: [f64; 2]) -> Self {
         let feet = scene.exits.iter().map(|exit| [exit[0], exit[1], scene.floor]);
         let cables = scene.poses.iter().flat_map(|pose| &pose.loaded.cables);
         let cables = cables.flat_map(|cable| cable.points.iter().copied());
         let all: Vec<_> = scene.exits.iter().copied().chain(feet).chain(cables).map(seen).collect();
         let Range { start: left, end: right } = extent(all.iter().map(|point| point.0));
         let Range { start: low, end: high } = extent(all.iter().map(|point| point.1));
-        let room = size.map(|size| size - 2.0 * (ROOM + MARGIN));
+        let around = 2.0 * (ROOM + MARGIN);
+        let room = most.map(|size| size - around);
         let scale = (room[0] / (right - left)).min(room[1] / (high - low));
         Self {
             scale,
             middle: (0.5 * (left + right), 0.5 * (low + high)),
-            size,
+            size: [most[0], scale * (high - low) + around],
             axes: AXES * (right - left).min(high - low),
         }
     }
@@ -151,7 +152,7 @@ impl Projection {
         for (number, exit) in scene.exits.iter().enumerate() {
             let (x, y) = self.projected(*exit);
             let side = if x < 0.5 * self.size[0] { -1.0 } else { 1.0 };
-            let mut at = (x + side * 9.0, y - 7.0);
+            let mut at = (x + side * 8.0, y - 12.0);
             // Exits one behind the other have their numbers one above the other.
             while placed.iter().any(|other| (other.0 - at.0).abs() < 14.0 && (other.1 - at.1).abs() < SMALL) {
                 at.1 -= SMALL;
@@ -194,7 +195,15 @@ impl Projection {
                 out = (-out.0, -out.1);
             }
             let away = |(x, y): (f64, f64), by: f64| (x + by * out.0, y + by * out.1);
-            let scale = Scale::numbers(range.clone(), ((length / TICKS) as usize).clamp(2, 6), "");
+            let most = ((length / TICKS) as usize).clamp(2, 6);
+            let mut scale = Scale::numbers(range.clone(), most, "");
+            // One tick is no scale.
+            for more in most + 1..=6 {
+                if scale.ticks.len() > 1 {
+                    break;
+                }
+                scale = Scale::numbers(range.clone(), more, "");
+            }
             Pen::solid(BLACK, 0.8).draw(area, [first, last].map(pixel).to_vec())?;
             let style = font(SMALL).pos(Pos::new(HPos::Center, VPos::Center));
             for (value, name) in &scale.ticks {
