@@ -5,7 +5,7 @@ use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use crate::source::Source;
 use cdpr_assess::read_region;
-use cdpr_report::{draw, figures, report_with};
+use cdpr_report::{Sheet, draw, figures, report_with};
 use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
     Access, Existing, IfExists, Part, Plan, REPORT_NAME, ROBOT_NAME, Results, Run, Session, Shard,
@@ -236,7 +236,7 @@ pub(crate) fn write_report(
     run(py, |_| -> Answer<PathBuf> {
         let results = Results::read(&folder)?;
         let region = workspace.as_deref().map(read_region).transpose()?;
-        let page = report_with(&results, &figures(&results), region.as_ref());
+        let page = report_with(&results, &figures(&results, Sheet::SCREEN), region.as_ref());
         let page = page.map_err(|error| Raised::Input(error.to_string()))?;
         match out {
             Some(path) => write_file(&path, &page, IfExists::overwriting(overwrite)).map(|()| path),

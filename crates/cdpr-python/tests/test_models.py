@@ -669,6 +669,15 @@ def test_answers_can_be_drawn(name):
         pyplot.close(figure)
 
 
+def test_a_map_over_powers_of_ten_has_colours_by_them():
+    pytest.importorskip("matplotlib").use("svg")
+    robot = cdpr.Robot.from_file("cogiro")
+    # In a vertical plane it deflects much farther near the height of its exits than at the ground.
+    for plane, norm in [(("y", 0.0), "LogNorm"), (("z", 2.0), "Normalize")]:
+        found = robot.workspace(plane=plane, grid=(9, 9), payload=50)
+        assert type(found.plot().axes[0].collections[0].norm).__name__ == norm
+
+
 def test_the_wind_blows_on_cables():
     robot = cdpr.Robot.from_file("cogiro")
     one = robot.in_weather([0, 0, 2], [15, 0, 0])

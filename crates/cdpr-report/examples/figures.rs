@@ -5,7 +5,7 @@
 
 #![allow(clippy::print_stdout)]
 
-use cdpr_report::{NamedSampling, Points, histogram, point_effects, signed_effects, surface};
+use cdpr_report::{NamedSampling, Points, Sheet, histogram, point_effects, signed_effects, surface};
 use cdpr_study::{
     IfExists, ResultsFolder, ResultsOf, Session, Study, SurfaceSummary, analyse, compute_surface, observe,
     write_figure,
@@ -33,8 +33,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let sampling = study.sampling(name)?;
         let session = Session::in_memory();
         let summary = analyse(&sampling, &observe(&sampling, &session)?, &session)?;
-        write(name, &histogram(&summary)?)?;
-        write(&format!("{name}_effects"), &signed_effects(&summary, 20)?)?;
+        write(name, &histogram(&summary, Sheet::SCREEN)?)?;
+        write(&format!("{name}_effects"), &signed_effects(&summary, 20, Sheet::SCREEN)?)?;
         summaries.push((name.as_str(), summary));
     }
     // Fig. 5b and 5c: the symmetric pose above the other one.
@@ -43,13 +43,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .filter(|(name, _)| name.starts_with("geometrical"))
         .map(|(name, summary)| NamedSampling { name, summary })
         .collect();
-    write("anchor_points", &point_effects(&study.robot, &geometrical, Points::Anchor)?)?;
-    write("exit_points", &point_effects(&study.robot, &geometrical, Points::Exit)?)?;
+    write("anchor_points", &point_effects(&study.robot, &geometrical, Points::Anchor, Sheet::SCREEN)?)?;
+    write("exit_points", &point_effects(&study.robot, &geometrical, Points::Exit, Sheet::SCREEN)?)?;
 
     for name in study.file.surfaces.keys() {
         let prepared = study.surface(name)?;
         let result = compute_surface(&prepared, &|_| ());
-        write(name, &surface(&SurfaceSummary::new(&prepared, &result), &result)?)?;
+        write(name, &surface(&SurfaceSummary::new(&prepared, &result), &result, Sheet::SCREEN)?)?;
     }
     Ok(())
 }

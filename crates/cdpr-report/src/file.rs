@@ -1,7 +1,6 @@
 //! Figures as files: SVG, and with the feature `figures` PDF and PNG.
 
-use crate::drawing::heading::TITLE_AT;
-use crate::drawing::style::{LINE_HEIGHT, px};
+use crate::drawing::sheet::{FIGURE_WIDTHS_MM, Sheet};
 use crate::error::ReportError;
 use std::borrow::Cow;
 use std::path::Path;
@@ -50,19 +49,22 @@ pub struct FigureFile {
     pub untitled: bool,
 }
 
-/// Widths that can be asked for [mm].
-pub const FIGURE_WIDTHS_MM: [f64; 2] = [20.0, 1000.0];
+impl FigureFile {
+    /// The sheet on which its figure is drawn.
+    #[must_use]
+    pub fn sheet(self) -> Sheet {
+        let sheet = self.width_mm.map_or(Sheet::SCREEN, Sheet::paper);
+        if self.untitled { sheet.untitled() } else { sheet }
+    }
+}
 
-/// The content of the file of a figure that is drawn as SVG.
+/// The content of the file of a figure that is drawn as SVG on its [`FigureFile::sheet`].
 ///
 /// # Errors
 /// [`ReportError::Invalid`] for a width outside of [`FIGURE_WIDTHS_MM`], [`ReportError::Drawing`] for a text
 /// that is no figure of this crate, and for PDF and PNG without the feature `figures`.
 pub fn figure_file(svg: &str, file: FigureFile) -> Result<Vec<u8>, ReportError> {
     let mut svg = Cow::from(svg);
-    if file.untitled {
-        svg = untitled(&svg).into();
-    }
     if let Some(width) = file.width_mm {
         svg = resized(&svg, width)?.into();
     }
@@ -108,31 +110,6 @@ fn resized(svg: &str, width_mm: f64) -> Result<String, ReportError> {
     let thousandths = |units: f64| (1e3 * units).round() / 1e3;
     let new_width = thousandths(width_mm * UNITS_PER_MM);
     Ok(with_size(svg, [width, height], [new_width, thousandths(new_width * height / width)]))
-}
-
-/// The figure without its title, the first of its texts, and without the room of it.
-fn untitled(svg: &str) -> String {
-    let without = || {
-        let begin = svg.find("<text ")?;
-        let end = begin + svg[begin..].find("</text>")? + "</text>".len();
-        let is_title = attribute(&svg[begin..end], "y")? == px(TITLE_AT).to_string();
-        let [width, height] = size(svg).filter(|_| is_title)?;
-        let text = format!("{}{}", &svg[..begin], &svg[end..]);
-        let [x, y, across, down] = view_box(svg)?;
-        let cut = px(LINE_HEIGHT);
-        let text = text.replacen(
-            &format!("viewBox=\"{x} {y} {across} {down}\""),
-            &format!("viewBox=\"{x} {} {across} {}\"", y + cut, down - cut),
-            1,
-        );
-        Some(with_size(&text, [width, height], [width, height - LINE_HEIGHT]))
-    };
-    without().unwrap_or_else(|| svg.to_owned())
-}
-
-fn view_box(svg: &str) -> Option<[i32; 4]> {
-    let numbers = attribute(svg, "viewBox")?.split(' ').map(str::parse).collect::<Result<Vec<i32>, _>>();
-    numbers.ok()?.try_into().ok()
 }
 
 /// The figure with its texts in DejaVu Sans, which comes with the program: the same on every machine.
@@ -201,14 +178,11 @@ mod tests {
     }
 
     #[test]
-    fn a_title_is_left_out_with_its_room_and_other_texts_stay() {
-        let title = "<text x=\"140\" y=\"240\" font-size=\"150\">\nThe title\n</text>";
-        let titled = SVG.replacen("<text", &format!("{title}<text"), 1);
-        let untitled = FigureFile { untitled: true, ..of(FigureFormat::Svg, None) };
-        let file = String::from_utf8(figure_file(&titled, untitled).unwrap()).unwrap();
-        assert!(file.starts_with("<svg width=\"700\" height=\"330\" viewBox=\"0 200 7000 3300\""), "{file}");
-        assert!(file.contains("Tension") && !file.contains("The title"), "{file}");
-        assert_eq!(figure_file(SVG, untitled).unwrap(), SVG.as_bytes());
+    fn a_file_is_drawn_for_its_width_and_without_the_title_that_its_caption_has() {
+        let file = of(FigureFormat::Svg, None);
+        assert_eq!(file.sheet(), Sheet::SCREEN);
+        assert_eq!(FigureFile { untitled: true, ..file }.sheet(), Sheet::SCREEN.untitled());
+        assert_eq!(of(FigureFormat::Svg, Some(88.0)).sheet(), Sheet::paper(88.0));
     }
 
     #[cfg(not(feature = "figures"))]

@@ -20,11 +20,12 @@
 //! | | answers of the direct model from wrong starts | [`found_poses`], [`success_share`] |
 //!
 //! The paper is Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of
-//! Cable-Driven Parallel Robots*, 2017. All figures are 700 px wide on white. Their colours are those of
+//! Cable-Driven Parallel Robots*, 2017. Figures are on white, as wide as a [`Sheet`]: 700 px on a screen, or of a width in print. Their colours are those of
 //! Okabe and Ito and viridis, which are safe for the colour-blind. The same results give the same bytes.
 //! [`figure_file`] makes files of them: SVG, and with the feature `figures` PDF and PNG.
 //!
 //! ```no_run
+//! use cdpr_report::Sheet;
 //! use cdpr_study::{Session, Study, analyse, observe};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -32,7 +33,7 @@
 //! let sampling = study.sampling("mechanical")?;
 //! let session = Session::in_memory();
 //! let summary = analyse(&sampling, &observe(&sampling, &session)?, &session)?;
-//! std::fs::write("mechanical.svg", cdpr_report::histogram(&summary)?)?;
+//! std::fs::write("mechanical.svg", cdpr_report::histogram(&summary, Sheet::SCREEN)?)?;
 //! # Ok(())
 //! # }
 //! ```
@@ -50,6 +51,7 @@ mod scene;
 mod text;
 
 pub use draw::{draw, figures};
+pub use drawing::sheet::{FIGURE_WIDTHS_MM, Sheet};
 pub use error::ReportError;
 pub use explorer::{Explored, explorer};
 pub use figure::cycle::{Cycle, CycleBranch, cycle};
@@ -65,6 +67,6 @@ pub use figure::robustness::{found_poses, success_share};
 pub use figure::shares::shares;
 pub use figure::signed_effects::signed_effects;
 pub use figure::surface::surface;
-pub use file::{FIGURE_WIDTHS_MM, FigureFile, FigureFormat, figure_file};
+pub use file::{FigureFile, FigureFormat, figure_file};
 pub use live::explored_study;
 pub use page::{analysis_report, calibration_report, report, report_with};

@@ -20,6 +20,7 @@ pub use analysis::analysis_report;
 pub use calibration::calibration_report;
 
 use crate::draw::figures;
+use crate::drawing::sheet::Sheet;
 use crate::error::ReportError;
 use crate::live::{LiveRobot, explored_study};
 use crate::page::elements::{Document, Live, Section};
@@ -45,7 +46,7 @@ struct Data<'a> {
 /// # Errors
 /// [`ReportError::Drawing`] if the data of the page cannot be written as JSON.
 pub fn report(results: &Results) -> Result<String, ReportError> {
-    report_with(results, &figures(results), None)
+    report_with(results, &figures(results, Sheet::SCREEN), None)
 }
 
 /// Writes the report of a study with figures that [`crate::draw()`] has drawn already, and with the region of

@@ -45,7 +45,7 @@ pub(crate) fn number(value: f64, decimals: usize) -> String {
 }
 
 /// Exponent in superscript digits.
-fn superscript(exponent: i32) -> String {
+pub(crate) fn superscript(exponent: i32) -> String {
     let raised = |c: char| match c {
         '-' => '\u{207b}',
         '1' => '\u{b9}',

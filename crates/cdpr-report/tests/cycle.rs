@@ -1,15 +1,18 @@
 //! Figure of a load cycle.
 
-use cdpr_report::{Cycle, CycleBranch, ReportError, cycle};
+use cdpr_report::{Cycle, CycleBranch, ReportError, Sheet, cycle};
 
 fn figure(branches: &[CycleBranch]) -> Result<String, ReportError> {
-    cycle(&Cycle {
-        title: "Loop",
-        lines: &["dissipates <1 J".to_owned()],
-        x: "elongation [mm]",
-        y: "force [N]",
-        branches,
-    })
+    cycle(
+        &Cycle {
+            title: "Loop",
+            lines: &["dissipates <1 J".to_owned()],
+            x: "elongation [mm]",
+            y: "force [N]",
+            branches,
+        },
+        Sheet::SCREEN,
+    )
 }
 
 fn branch(name: &str, points: &[(f64, f64)]) -> CycleBranch {

@@ -3,7 +3,7 @@
 use crate::robustness_figures::robustness;
 use cdpr_assess::ProtocolSummary;
 use cdpr_report::{
-    NamedSampling, Points, ReportError, found_poses, histogram, point_effects, shares, signed_effects,
+    NamedSampling, Points, ReportError, Sheet, found_poses, histogram, point_effects, shares, signed_effects,
     success_share, surface,
 };
 use cdpr_robot::Robot;
@@ -140,18 +140,23 @@ fn grid() -> (SurfaceSummary, SurfaceResult) {
     (summary, result)
 }
 
-/// All figures that these results have.
-fn figures() -> [String; 7] {
+/// All figures that these results have, on a sheet where they have one.
+fn figures(sheet: Sheet) -> [String; 7] {
     let robustness = robustness();
     let (summary, result) = grid();
     let sampling = sampling();
     [
-        histogram(&sampling).unwrap(),
-        surface(&summary, &result).unwrap(),
-        point_effects(&robot(), &[named("symmetric", &sampling), named("other", &sampling)], Points::Exit)
-            .unwrap(),
-        signed_effects(&sampling, 20).unwrap(),
-        shares(&measured(), 12).unwrap(),
+        histogram(&sampling, sheet).unwrap(),
+        surface(&summary, &result, sheet).unwrap(),
+        point_effects(
+            &robot(),
+            &[named("symmetric", &sampling), named("other", &sampling)],
+            Points::Exit,
+            sheet,
+        )
+        .unwrap(),
+        signed_effects(&sampling, 20, sheet).unwrap(),
+        shares(&measured(), 12, sheet).unwrap(),
         found_poses(&robustness).unwrap(),
         success_share(&ProtocolSummary::new(&robustness)).unwrap(),
     ]
@@ -175,7 +180,7 @@ pub(crate) fn texts(svg: &str) -> Vec<&str> {
 
 #[test]
 fn every_figure_is_700_px_wide_and_has_only_finite_coordinates_inside_of_it() {
-    for svg in figures() {
+    for svg in figures(Sheet::SCREEN) {
         assert!(svg.starts_with("<svg width=\"700\" height=\""), "{}", &svg[..60]);
         assert!(svg.trim_end().ends_with("</svg>"));
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
@@ -189,8 +194,35 @@ fn every_figure_is_700_px_wide_and_has_only_finite_coordinates_inside_of_it() {
 }
 
 #[test]
+fn letters_have_seven_to_eight_points_in_columns_and_on_pages_of_journals() {
+    for width_mm in [88.0, 180.0] {
+        // The last two have one sheet.
+        for svg in figures(Sheet::paper(width_mm)).iter().take(5) {
+            let number = |attribute: &str, text: &str| -> f64 {
+                text.split(&format!("{attribute}=\""))
+                    .nth(1)
+                    .unwrap()
+                    .split('"')
+                    .next()
+                    .unwrap()
+                    .parse()
+                    .unwrap()
+            };
+            let (width, height) = (number("<svg width", svg), number(" height", svg));
+            assert!(height < 3.2 * width, "{width_mm} mm: {width} x {height}");
+            let point = width_mm / 25.4 * 72.0 / (10.0 * width);
+            for text in svg.split("<text ").skip(1) {
+                let (size, x) = (point * number("font-size", text), number("x", text));
+                assert!((7.0 - 0.01..8.01).contains(&size), "{width_mm} mm: {size} pt: {text:.200}");
+                assert!((0.0..10.0 * width).contains(&x), "{width_mm} mm: {x}");
+            }
+        }
+    }
+}
+
+#[test]
 fn a_histogram_has_a_bar_for_each_bin_and_names_the_best_law() {
-    let svg = histogram(&sampling()).unwrap();
+    let svg = histogram(&sampling(), Sheet::SCREEN).unwrap();
     assert_eq!(rectangles(&svg), 5);
     let texts = texts(&svg);
     for text in [
@@ -210,7 +242,7 @@ fn a_histogram_has_a_bar_for_each_bin_and_names_the_best_law() {
 fn the_bars_of_a_histogram_are_a_density() {
     // Heights in units of the picture; the bin of 20 of 100 in 0.1 mm is 2 / mm high, just as the uniform
     // law.
-    let svg = histogram(&sampling()).unwrap();
+    let svg = histogram(&sampling(), Sheet::SCREEN).unwrap();
     let height = |bar: usize| -> f64 {
         let rect = svg.split("<rect ").nth(bar + 2).unwrap();
         rect.split("height=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
@@ -222,14 +254,14 @@ fn the_bars_of_a_histogram_are_a_density() {
 
 #[test]
 fn titles_are_escaped() {
-    let svg = histogram(&sampling()).unwrap();
+    let svg = histogram(&sampling(), Sheet::SCREEN).unwrap();
     assert!(svg.contains("Everything, E &lt; 104 &amp; &quot;rest&quot;"));
 }
 
 #[test]
 fn a_surface_has_a_cell_for_each_point_and_shows_the_failed_ones() {
     let (summary, mut result) = grid();
-    let svg = surface(&summary, &result).unwrap();
+    let svg = surface(&summary, &result, Sheet::SCREEN).unwrap();
     let failed = texts(&svg).join("\n");
     for text in
         ["E and m", "Young&apos;s modulus E [GPa]", "mass of the platform m [kg]", "magnitude [mm]", "failed"]
@@ -238,7 +270,7 @@ fn a_surface_has_a_cell_for_each_point_and_shows_the_failed_ones() {
     }
     assert!(texts(&svg).contains(&"100"), "GPa, not Pa");
     result.values[2] = Ok(1.3);
-    let whole = surface(&summary, &result).unwrap();
+    let whole = surface(&summary, &result, Sheet::SCREEN).unwrap();
     assert_eq!(rectangles(&svg), rectangles(&whole));
     assert_eq!(rectangles(&whole), 6 + 128);
     assert!(!texts(&whole).contains(&"failed"));
@@ -247,9 +279,13 @@ fn a_surface_has_a_cell_for_each_point_and_shows_the_failed_ones() {
 #[test]
 fn points_have_three_bars_each_and_a_panel_per_sampling() {
     let sampling = sampling();
-    let svg =
-        point_effects(&robot(), &[named("symmetric", &sampling), named("other", &sampling)], Points::Exit)
-            .unwrap();
+    let svg = point_effects(
+        &robot(),
+        &[named("symmetric", &sampling), named("other", &sampling)],
+        Points::Exit,
+        Sheet::SCREEN,
+    )
+    .unwrap();
     assert_eq!(rectangles(&svg), 2 * 8 * 3);
     let texts = texts(&svg);
     for text in ["B1", "B8", "x", "y", "z", "t [-]", "8.0", "plan: x from −3.50 to 3.50 m"] {
@@ -261,7 +297,7 @@ fn points_have_three_bars_each_and_a_panel_per_sampling() {
 #[test]
 fn signed_effects_are_sorted_by_size_and_cut_off() {
     let summary = sampling();
-    let svg = signed_effects(&summary, 2).unwrap();
+    let svg = signed_effects(&summary, 2, Sheet::SCREEN).unwrap();
     assert_eq!(rectangles(&svg), 2);
     let texts = texts(&svg);
     assert!(texts.contains(&"signed effect on the magnitude of the static deflection [mm]"));
@@ -277,18 +313,21 @@ fn without_data_there_is_no_figure() {
     let mut empty = sampling();
     empty.histogram.as_mut().unwrap().counts = vec![0; 5];
     empty.signed_effects.clear();
-    assert!(matches!(histogram(&empty), Err(ReportError::Empty { .. })));
-    assert!(matches!(signed_effects(&empty, 20), Err(ReportError::Empty { .. })));
-    assert!(matches!(signed_effects(&sampling(), 0), Err(ReportError::Empty { .. })));
-    assert!(matches!(point_effects(&robot(), &[], Points::Exit), Err(ReportError::Empty { .. })));
+    assert!(matches!(histogram(&empty, Sheet::SCREEN), Err(ReportError::Empty { .. })));
+    assert!(matches!(signed_effects(&empty, 20, Sheet::SCREEN), Err(ReportError::Empty { .. })));
+    assert!(matches!(signed_effects(&sampling(), 0, Sheet::SCREEN), Err(ReportError::Empty { .. })));
     assert!(matches!(
-        point_effects(&robot(), &[named("a", &empty)], Points::Anchor),
+        point_effects(&robot(), &[], Points::Exit, Sheet::SCREEN),
+        Err(ReportError::Empty { .. })
+    ));
+    assert!(matches!(
+        point_effects(&robot(), &[named("a", &empty)], Points::Anchor, Sheet::SCREEN),
         Err(ReportError::Empty { .. })
     ));
     let (summary, mut result) = grid();
     let failure = result.values[2].clone();
     result.values.fill(failure);
-    assert!(matches!(surface(&summary, &result), Err(ReportError::Empty { .. })));
+    assert!(matches!(surface(&summary, &result, Sheet::SCREEN), Err(ReportError::Empty { .. })));
 }
 
 #[test]
@@ -299,26 +338,29 @@ fn a_value_that_cannot_be_drawn_is_refused() {
         change(&mut summary);
         summary
     };
-    assert!(invalid(histogram(&change(|s| s.values.as_mut().unwrap().nominal = f64::NAN))));
-    assert!(invalid(histogram(&change(|s| {
-        let edges = &mut s.histogram.as_mut().unwrap().edges;
-        edges[2] = edges[1];
-    }))));
-    assert!(invalid(histogram(&change(|s| s.histogram.as_mut().unwrap().edges.truncate(5)))));
+    assert!(invalid(histogram(&change(|s| s.values.as_mut().unwrap().nominal = f64::NAN), Sheet::SCREEN)));
+    assert!(invalid(histogram(
+        &change(|s| {
+            let edges = &mut s.histogram.as_mut().unwrap().edges;
+            edges[2] = edges[1];
+        }),
+        Sheet::SCREEN
+    )));
+    assert!(invalid(histogram(&change(|s| s.histogram.as_mut().unwrap().edges.truncate(5)), Sheet::SCREEN)));
     let nan = change(|s| s.t_student.values_mut().for_each(|t| *t = f64::NAN));
-    assert!(invalid(point_effects(&robot(), &[named("a", &nan)], Points::Exit)));
+    assert!(invalid(point_effects(&robot(), &[named("a", &nan)], Points::Exit, Sheet::SCREEN)));
     let wide = SignedEffect { effect: 0.0, low: f64::NEG_INFINITY, high: f64::INFINITY };
     let mut summary = sampling();
     summary.signed_effects.insert("mass".to_owned(), wide);
-    assert!(invalid(signed_effects(&summary, 1)));
+    assert!(invalid(signed_effects(&summary, 1, Sheet::SCREEN)));
 
     let (mut summary, mut result) = grid();
     result.values[0] = Ok(f64::INFINITY);
-    assert!(invalid(surface(&summary, &result)));
+    assert!(invalid(surface(&summary, &result, Sheet::SCREEN)));
     result.values.pop();
-    assert!(invalid(surface(&summary, &result)));
+    assert!(invalid(surface(&summary, &result, Sheet::SCREEN)));
     summary.parameters[0] = "modulus".to_owned();
-    assert!(invalid(surface(&summary, &result)));
+    assert!(invalid(surface(&summary, &result, Sheet::SCREEN)));
 }
 
 #[test]
@@ -327,13 +369,13 @@ fn a_surface_on_which_nothing_varies_has_a_figure() {
     for noise in [0.0, 2.3e-16] {
         result.values.fill(Ok(1.5));
         result.values[0] = Ok(1.5 + noise);
-        assert_eq!(rectangles(&surface(&summary, &result).unwrap()), 6 + 128);
+        assert_eq!(rectangles(&surface(&summary, &result, Sheet::SCREEN).unwrap()), 6 + 128);
     }
 }
 
 #[test]
 fn shares_have_the_leading_input_on_top_and_a_dot_for_each_measure() {
-    let svg = shares(&measured(), 12).unwrap();
+    let svg = shares(&measured(), 12, Sheet::SCREEN).unwrap();
     let texts = texts(&svg);
     assert_eq!(svg.matches("<circle ").count(), 6);
     for text in ["derivatives", "Sobol&apos; first", "Sobol&apos; total", "0.01", "100", "b2.x", "mass"] {
@@ -342,13 +384,13 @@ fn shares_have_the_leading_input_on_top_and_a_dot_for_each_measure() {
     assert!(!texts.contains(&"expansion"), "what is not measured is not in the key");
     let line_of = |name| texts.iter().position(|text| *text == name).unwrap();
     assert!(line_of("mass") < line_of("b2.x"), "names are written from below");
-    let one = shares(&measured(), 1).unwrap();
+    let one = shares(&measured(), 1, Sheet::SCREEN).unwrap();
     assert_eq!(one.matches("<circle ").count(), 3);
 
-    assert_eq!(shares(&sampling(), 12), Err(ReportError::Empty { what: "sensitivity" }));
-    assert!(matches!(shares(&measured(), 0), Err(ReportError::Empty { .. })));
+    assert_eq!(shares(&sampling(), 12, Sheet::SCREEN), Err(ReportError::Empty { what: "sensitivity" }));
+    assert!(matches!(shares(&measured(), 0, Sheet::SCREEN), Err(ReportError::Empty { .. })));
     let mut spoiled = measured();
     spoiled.sensitivity.as_mut().unwrap().inputs[0].sobol_first_low = Some(f64::NAN);
-    let error = shares(&spoiled, 12).unwrap_err().to_string();
+    let error = shares(&spoiled, 12, Sheet::SCREEN).unwrap_err().to_string();
     assert!(error.contains("sensitivity.mass: Sobol' first is NaN"), "{error}");
 }

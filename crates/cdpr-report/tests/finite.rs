@@ -6,7 +6,7 @@ use cdpr_assess::{
     Further, Protocol, ProtocolSummary, RobustnessSummary, Workspace, WorkspaceSummary, begin_robustness,
     begin_workspace, compute_workspace, run_robustness, write_robustness, write_workspace,
 };
-use cdpr_report::{draw, found_poses, report_with, success_share, workspace_maps};
+use cdpr_report::{Sheet, draw, found_poses, report_with, success_share, workspace_maps};
 use cdpr_robot::{Robot, Rotation3, Vector3, Wrench};
 use cdpr_statics::Load;
 use cdpr_study::{
@@ -168,7 +168,7 @@ fn workspaces_of_which_nothing_is_held_or_without_load() {
         };
         let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
         let summary = WorkspaceSummary::new(&workspace, &poses);
-        let maps = workspace_maps(&robot, &summary, usize::MAX).into_iter();
+        let maps = workspace_maps(&robot, &summary, None, usize::MAX, Sheet::SCREEN).into_iter();
         let maps: Vec<_> = maps.filter_map(|map| Some((map.name, map.svg.ok()?))).collect();
         write_workspace(&owned, &summary, &maps, None).unwrap();
         assert_finite(what, &format!("{summary:?}"));

@@ -1,6 +1,8 @@
 //! Contents of the report; hostile text stays text, and nothing is loaded from outside.
 
-use cdpr_report::{NamedSampling, Points, histogram, point_effects, report, shares, signed_effects, surface};
+use cdpr_report::{
+    NamedSampling, Points, Sheet, histogram, point_effects, report, shares, signed_effects, surface,
+};
 use cdpr_study::{Results, StudySummary};
 use serde_json::json;
 use std::collections::{BTreeMap, BTreeSet};
@@ -29,19 +31,22 @@ fn every_figure_of_the_study_is_in_the_report_with_the_bytes_of_its_file() {
     for (name, study) in &results.summary.studies {
         match study {
             StudySummary::Sampling(sampling) => {
-                drawn.insert(name.clone(), histogram(sampling).unwrap());
-                drawn.insert(format!("{name}_effects"), signed_effects(sampling, 20).unwrap());
-                drawn.insert(format!("{name}_sensitivity"), shares(sampling, 12).unwrap());
+                drawn.insert(name.clone(), histogram(sampling, Sheet::SCREEN).unwrap());
+                drawn.insert(format!("{name}_effects"), signed_effects(sampling, 20, Sheet::SCREEN).unwrap());
+                drawn.insert(format!("{name}_sensitivity"), shares(sampling, 12, Sheet::SCREEN).unwrap());
                 samplings.push(NamedSampling { name, summary: sampling });
             }
             StudySummary::Surface(summary) => {
-                drawn.insert(name.clone(), surface(summary, &results.surfaces[name]).unwrap());
+                drawn.insert(name.clone(), surface(summary, &results.surfaces[name], Sheet::SCREEN).unwrap());
             }
             StudySummary::Poses(_) => unreachable!("CAROCA's study has none"),
         }
     }
     for (name, points) in [("anchor_points", Points::Anchor), ("exit_points", Points::Exit)] {
-        drawn.insert(name.to_owned(), point_effects(&results.study.robot, &samplings, points).unwrap());
+        drawn.insert(
+            name.to_owned(),
+            point_effects(&results.study.robot, &samplings, points, Sheet::SCREEN).unwrap(),
+        );
     }
     for (name, svg) in &drawn {
         assert!(svg.starts_with("<svg") && html.contains(svg.as_str()), "{name}");
@@ -141,7 +146,7 @@ fn control_and_bidirectional_characters_of_names_are_shown_in_figures_and_in_the
     let Some(StudySummary::Sampling(sampling)) = results.summary.studies.get("mechanical") else {
         panic!("no sampling")
     };
-    let svg = histogram(sampling).unwrap();
+    let svg = histogram(sampling, Sheet::SCREEN).unwrap();
     // What XML 1.0 allows of control characters.
     assert!(!svg.contains(|c: char| c.is_control() && c != '\n'), "{svg}");
     for text in [&svg, &html] {

@@ -1,6 +1,6 @@
 //! Figures drawn again from a folder of results.
 
-use cdpr_report::{draw, figures};
+use cdpr_report::{Sheet, draw, figures};
 use cdpr_study::{Existing, Results, Study, TableFormat, Watcher, begin};
 use serde_json::json;
 
@@ -33,7 +33,7 @@ fn figures_of_results_that_are_read_back_are_those_that_the_run_has_drawn() {
     let run = cdpr_study::run(&study, &blocks, Some(TableFormat::None), &draw, watcher).unwrap();
 
     drop(blocks);
-    let again = figures(&Results::read(&out).unwrap());
+    let again = figures(&Results::read(&out).unwrap(), Sheet::SCREEN);
     let names: Vec<&str> = again.iter().map(|figure| figure.name.as_str()).collect();
     let expected = [
         "geometrical",

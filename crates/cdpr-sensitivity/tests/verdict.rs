@@ -2,8 +2,8 @@
 
 use crate::known_tables::{KINDS, Source};
 use cdpr_sensitivity::{
-    Analyser, Concern, GivenData, Input, Law, Limit, Rows, SensitivityError, SobolDesign, Verdict, delta,
-    dependence, given_expansion, halves, observe, pawn, rank_indices,
+    Analyser, Concern, GivenData, Input, Law, LeadingInputs, Limit, Rows, SensitivityError, SobolDesign,
+    Verdict, delta, dependence, given_expansion, halves, observe, pawn, rank_indices,
 };
 use rayon::prelude::*;
 
@@ -327,4 +327,28 @@ fn a_vector_of_too_many_components_is_refused_before_it_is_computed() {
     let outputs: Vec<Option<Vec<f64>>> = column.iter().map(|x| Some(vec![*x; 80])).collect();
     let error = cdpr_sensitivity::wasserstein_bures(&[column], &outputs, 0.95, 1).unwrap_err();
     assert_eq!(error.to_string(), "components = 80: expected 1 to 32");
+}
+
+#[test]
+fn rows_of_a_sequence_have_shares_by_a_model_that_explains_them_and_else_a_reason_in_plain_words() {
+    let law = Law::Uniform { min: -1.0, max: 1.0 };
+    let inputs: Vec<_> = (1..=8).map(|i| Input::continuous(format!("x{i}"), law)).collect();
+    let design = SobolDesign::new(inputs, 1, 512).unwrap();
+    let of = |model: fn(&[f64]) -> f64| {
+        let outputs = observe(&design, |x| Some(model(x))).unwrap();
+        Analyser::new(1).analyse(&GivenData::of_design(&design, &outputs).unwrap()).unwrap()
+    };
+    // Variances of 1/3 and 0.03: shares of 91.7 % and 8.3 %.
+    let smooth = of(|x| x[2] + 0.3 * x[5]);
+    assert!(smooth.inputs.iter().all(|input| input.first.is_none()));
+    let LeadingInputs { rows, captions } = LeadingInputs::of(&smooth);
+    assert_eq!([&rows[0][0], &rows[0][1]], ["x3", "91.7 (expansion)"]);
+    assert_eq!([&rows[1][0], &rows[1][1]], ["x6", "8.3 (expansion)"]);
+    assert!(captions[1].starts_with("expansion: by a polynomial model, which leaves 0.0 %"), "{captions:?}");
+    let rough = of(|x| (40.0 * x[2]).sin() + x[5]);
+    let LeadingInputs { rows, captions } = LeadingInputs::of(&rough);
+    assert!(rows.iter().all(|row| row[1] == "-"), "{rows:?}");
+    let why =
+        "no shares: shares by ranks need independent rows, and these are of a sequence (Sobol', Halton)";
+    assert!(captions[1].starts_with(why), "{captions:?}");
 }

@@ -156,6 +156,11 @@ fn a_report_is_written_over_the_one_in_its_own_folder_on_request_and_over_no_oth
     answered(cdpr_in(folder.path(), &[&analyse[..], &["--overwrite"]].concat()));
     let page = std::fs::read_to_string(folder.path().join("analysis/report.html")).unwrap();
     assert!(page.contains("<circle") && page.contains("<polyline") && !page.contains("<script"));
+    // As on the terminal: no number whose interval is wider, and inputs in the order of the verdict.
+    let measures = page.split("<caption>Measures of each input").nth(1).unwrap().split("</table>").next().unwrap();
+    assert!(measures.contains("not resolved") && !measures.contains('\u{b1}'), "{measures}");
+    let place = |input: &str| measures.find(&format!(">{input}<")).unwrap();
+    assert!(place("x2") < place("x1") && place("x1") < place("x3"), "{measures}");
     std::fs::create_dir(folder.path().join("mine")).unwrap();
     std::fs::write(folder.path().join("mine/report.html"), "mine").unwrap();
     assert!(!cdpr_in(folder.path(), &["analyse", &table, "--out", "mine"]).status.success());
@@ -211,6 +216,19 @@ fn inputs_that_are_certain_in_the_own_table_of_a_study_have_a_share_and_the_caus
         let concerns = verdict["conditions"].as_array().unwrap().iter();
         assert!(concerns.clone().any(|of| of["concern"] == json!("sequence")), "{robot}: {verdict}");
     }
+}
+
+#[test]
+fn the_own_table_of_a_study_has_shares_by_the_expansion_and_says_so() {
+    let bench = Bench::new("caroca.json", |study| {
+        (study["surfaces"], study["replicates"]) = (json!({}), json!(0));
+        study.as_object_mut().unwrap().remove("sensitivity");
+    });
+    let run = ["study", "run", "study.json", "--out", "results", "--observations", "500"];
+    answered(cdpr_in(&bench.path("."), &run));
+    let printed = answered(cdpr_in(&bench.path("."), &["analyse", "results/mechanical.csv"]));
+    assert!(printed.contains("(expansion)"), "{printed}");
+    assert!(printed.contains("and these are of a sequence"), "{printed}");
 }
 
 #[test]

@@ -52,6 +52,42 @@ fn a_width_in_millimetres_and_a_caption_in_place_of_the_title() {
 }
 
 #[test]
+fn letters_have_seven_to_eight_points_at_the_width_of_a_column_and_of_a_page() {
+    let folder = TempDir::new().unwrap();
+    let run = |width: f64, name: &str, arguments: &[&str]| {
+        let figure = format!("{name}.svg,width={width}");
+        cdpr_in(folder.path(), &[arguments, &["--overwrite", "--figure", &figure]].concat());
+        let svg = read_to_string(folder.path().join(format!("{name}.svg"))).unwrap();
+        let number = |attribute: &str, text: &str| -> f64 {
+            text.split(&format!("{attribute}=\""))
+                .nth(1)
+                .unwrap()
+                .split(['"', ' '])
+                .next()
+                .unwrap()
+                .parse()
+                .unwrap()
+        };
+        let across = svg.split("viewBox=\"").nth(1).unwrap().split(['"', ' ']).nth(2).unwrap();
+        let point = 0.75 * number("<svg width", &svg) / across.parse::<f64>().unwrap();
+        for text in svg.split("<text ").skip(1) {
+            let size = point * number("font-size", text);
+            assert!((6.99..8.01).contains(&size), "{name}, {width} mm: {size} pt: {text:.200}");
+        }
+    };
+    std::fs::write(folder.path().join("poses.csv"), "x_m,y_m,z_m\n0,0,2\n0.5,0,2\n1,0,2\n").unwrap();
+    for width in [88.0, 180.0] {
+        run(width, "path", &["path", "cogiro", "--poses", "poses.csv", "--payload", "20"]);
+        run(width, "modes", &["response", "cogiro", "--pose", "0,0,2", "--with", "damping=1e-3"]);
+        run(
+            width,
+            "deflection",
+            &["workspace", "cogiro", "--region", "::5,::5,1.5", "--payload", "20", "--out", "map"],
+        );
+    }
+}
+
+#[test]
 fn a_figure_of_results_is_drawn_by_its_name() {
     let bench = bench();
     answered(cdpr_in(&bench.path("."), &["study", "run", "study.json", "--out", "out"]));
@@ -80,7 +116,11 @@ fn a_map_is_drawn_by_its_name() {
     assert_eq!(map("deflection.svg,untitled").status.code(), Some(3));
     let [own, cut] = ["map/deflection.svg", "deflection.svg"]
         .map(|name| read_to_string(folder.path().join(name)).unwrap());
-    assert!(cut.contains("viewBox=\"0 200 ") && own.contains("viewBox=\"0 0 "));
+    assert!(own.contains("static deflection at z") && !cut.contains("static deflection at z"));
+    let height = |svg: &str| -> f64 {
+        svg.split("height=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
+    };
+    assert_eq!(height(&own) - height(&cut), 20.0);
     let output = map("torque.svg");
     assert_eq!(output.status.code(), Some(2));
     assert!(unwrapped(output.stderr).contains("deflection, "));

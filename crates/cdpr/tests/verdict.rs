@@ -65,6 +65,20 @@ fn the_template_study_says_what_is_certain_and_fewer_observations_leave_its_boun
     let (details, _) = run("details", &["--observations", "200", "--details"]);
     assert!(details.contains("Sobol' total") && details.contains("not resolved"), "{details}");
     assert!(!details.contains("left out: sobol"), "{details}");
+    // A sum of what is not resolved has no number.
+    let row = |begin: &str| -> Vec<String> {
+        let cells =
+            |line: &str| line.split(['\u{2502}', '\u{2506}']).map(|cell| cell.trim().to_owned()).collect();
+        let mut lines = details.lines().map(cells);
+        lines.find(|cells: &Vec<String>| cells.iter().any(|cell| cell == begin)).unwrap()
+    };
+    let (names, sums) = (row("input"), row("sum of a"));
+    let of = |name: &str| &sums[names.iter().position(|cell| cell == name).unwrap()];
+    assert_eq!(
+        (of("Sobol' total").as_str(), of("derivatives").is_empty()),
+        ("", false),
+        "{names:?} {sums:?}"
+    );
 
     // The report has the same words.
     let page = std::fs::read_to_string(folder.path().join("all/report.html")).unwrap();

@@ -131,7 +131,10 @@ def _map(answer: Any, axis: Any) -> None:
         axis.set_xlabel(f"{'xyz'[across if plane.shape[0] > 1 else up]} [m]")
         axis.set_ylabel("displacement |dp| [mm]")
         return
-    image = axis.pcolormesh(places[..., across], places[..., up], plane, shading="nearest")
+    known = plane[numpy.isfinite(plane)]
+    wide = known.size > 0 and 0 < 10 * known.min() <= known.max()
+    norm = "log" if wide else None
+    image = axis.pcolormesh(places[..., across], places[..., up], plane, shading="nearest", norm=norm)
     axis.figure.colorbar(image, ax=axis, label="displacement |dp| [mm]")
     axis.set_aspect("equal")
     axis.set_xlabel(f"{'xyz'[across]} [m]")

@@ -1,7 +1,9 @@
 //! Charts and their axes.
 
-use crate::drawing::style::{Area, CHARACTER, DrawingError, LINE_HEIGHT, MARGIN, TEXT, X_AXIS, font, px};
-use crate::text::number;
+use crate::drawing::style::{
+    Area, CHARACTER, DrawingError, LINE_HEIGHT, MARGIN, TEXT, X_AXIS, font, px, width_of,
+};
+use crate::text::{number, superscript};
 use plotters::coord::ranged1d::{BoldPoints, KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
@@ -21,6 +23,7 @@ pub(crate) enum Grid {
 
 /// Draws both axes of a chart and returns it, ready for its data.
 pub(crate) fn chart<'a>(area: &Area<'a>, x: &Axis, y: &Axis, grid: Grid) -> Result<Chart<'a>, DrawingError> {
+    let x = &x.fitted(width_of(area) - y.room() - 2.0 * MARGIN);
     let mut chart = ChartBuilder::on(area)
         .margin(px(MARGIN))
         .margin_top(px(4.0))
@@ -52,27 +55,57 @@ pub(crate) struct Axis {
     pub range: Range<f64>,
     pub ticks: Vec<(f64, String)>,
     pub label: String,
+    /// Most ticks at round values, and the power of ten of the label; `None` for ticks that are given.
+    round: Option<(usize, i32)>,
 }
+
+/// Sizes beyond which an axis has a power of ten in its label.
+const PLAIN: Range<f64> = 1e-3..1e7;
+/// Room between the texts of ticks below a chart [px].
+const BETWEEN: f64 = 10.0;
 
 impl Axis {
     /// Makes an axis of numbers with at most `most` ticks at round values. An empty range is widened, also
-    /// one that is empty up to rounding.
+    /// one that is empty up to rounding. Numbers that are very small or very large have a common power of ten,
+    /// which is in the label.
     pub(crate) fn numbers(range: Range<f64>, most: usize, label: impl Into<String>) -> Self {
         let size = range.start.abs().max(range.end.abs());
-        let half = if range.end - range.start > 1e-9 * size { 0.0 } else { 1e-3 * size.max(1.0) };
+        let half = match range.end - range.start > 1e-9 * size {
+            true => 0.0,
+            false if size > 0.0 => 1e-3 * size,
+            false => 0.5,
+        };
         let range = range.start - half..range.end + half;
-        let values = RangedCoordf64::from(range.clone()).key_points(BoldPoints(most));
-        let step = values.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
-        // Steps are 1, 2, 2.5 or 5 times a power of ten.
-        let decimals = (0..12).find(|&d| is_whole(step * 10.0_f64.powi(d))).unwrap_or(3) as usize;
-        let ticks = values.into_iter().map(|value| (value, number(value, decimals))).collect();
-        Self { range, ticks, label: label.into() }
+        let size = range.start.abs().max(range.end.abs());
+        let power = if PLAIN.contains(&size) { 0 } else { 3 * (size.log10() / 3.0).floor() as i32 };
+        let label = if power == 0 { label.into() } else { with_power(&label.into(), power) };
+        let ticks = round_ticks(&range, most, power);
+        Self { range, ticks, label, round: Some((most, power)) }
+    }
+
+    /// Makes an axis with these ticks.
+    pub(crate) fn given(range: Range<f64>, ticks: Vec<(f64, String)>, label: impl Into<String>) -> Self {
+        Self { range, ticks, label: label.into(), round: None }
     }
 
     /// Makes an axis of names at 1, 2, ...
     pub(crate) fn names(names: impl Iterator<Item = String>, label: impl Into<String>) -> Self {
         let ticks: Vec<_> = names.enumerate().map(|(i, name)| ((i + 1) as f64, name)).collect();
-        Self { range: 0.5..ticks.len() as f64 + 0.5, ticks, label: label.into() }
+        Self::given(0.5..ticks.len() as f64 + 0.5, ticks, label)
+    }
+
+    /// The same with so many of its round values that their texts fit below a chart of this width [px].
+    fn fitted(&self, width: f64) -> Self {
+        let mut fitted = self.clone();
+        let Some((most, power)) = self.round else { return fitted };
+        let room = |(_, text): &(f64, String)| BETWEEN + CHARACTER * TEXT * text.chars().count() as f64;
+        for most in (2..most).rev() {
+            if fitted.ticks.iter().map(room).sum::<f64>() <= width {
+                break;
+            }
+            fitted.ticks = round_ticks(&self.range, most, power);
+        }
+        fitted
     }
 
     /// Width of the axis beside a chart [px].
@@ -80,6 +113,28 @@ impl Axis {
         let longest = self.ticks.iter().map(|(_, text)| text.chars().count()).max().unwrap_or(0);
         let label = if self.label.is_empty() { 0.0 } else { LINE_HEIGHT };
         12.0 + CHARACTER * TEXT * longest as f64 + label
+    }
+}
+
+/// At most so many round values with their texts, in units of a power of ten.
+fn round_ticks(range: &Range<f64>, most: usize, power: i32) -> Vec<(f64, String)> {
+    let unit = 10.0_f64.powi(power);
+    let values = RangedCoordf64::from(range.start / unit..range.end / unit).key_points(BoldPoints(most));
+    let step = values.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+    // Of one tick the value has the decimals.
+    let step = if step.is_finite() { step } else { values.first().copied().unwrap_or(0.0) };
+    // Steps are 1, 2, 2.5 or 5 times a power of ten.
+    let decimals = (0..12).find(|&d| is_whole(step * 10.0_f64.powi(d))).unwrap_or(3) as usize;
+    values.into_iter().map(|value| (value * unit, number(value, decimals))).collect()
+}
+
+/// A label whose unit has a power of ten, as in `payload [10⁻⁶ kg]`.
+fn with_power(label: &str, power: i32) -> String {
+    let power = format!("10{}", superscript(power));
+    match label.rsplit_once('[') {
+        Some((name, unit)) if unit != "-]" => format!("{name}[{power} {unit}"),
+        Some((name, _)) => format!("{name}[{power}]"),
+        None => format!("{label} [{power}]"),
     }
 }
 
@@ -115,4 +170,28 @@ pub(crate) fn extent(values: impl Iterator<Item = f64>) -> Range<f64> {
 /// Whether a value is whole up to rounding.
 fn is_whole(value: f64) -> bool {
     (value - value.round()).abs() < 1e-6 * value.abs().max(1e-3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn very_small_and_large_numbers_have_a_common_power_in_the_label() {
+        let axis = Axis::numbers(0.0..1.7e-5, 9, "payload [kg]");
+        let texts: Vec<&str> = axis.ticks.iter().map(|(_, text)| text.as_str()).collect();
+        assert_eq!(axis.label, "payload [10\u{207b}\u{2076} kg]");
+        assert!(texts.contains(&"10") && texts.iter().all(|text| text.len() <= 2), "{texts:?}");
+        assert!(axis.ticks.iter().all(|(value, _)| axis.range.contains(value)));
+        assert_eq!(Axis::numbers(0.0..3e7, 5, "ratio [-]").label, "ratio [10\u{2076}]");
+        assert_eq!(Axis::numbers(0.0..0.5, 5, "payload [kg]").label, "payload [kg]");
+    }
+
+    #[test]
+    fn a_narrow_chart_has_fewer_ticks() {
+        let axis = Axis::numbers(0.0..12_345.0, 9, "tension [N]");
+        let (broad, narrow) = (axis.fitted(600.0), axis.fitted(150.0));
+        assert_eq!(broad.ticks.len(), axis.ticks.len());
+        assert!(narrow.ticks.len() < axis.ticks.len() && narrow.ticks.len() > 1, "{}", narrow.ticks.len());
+    }
 }

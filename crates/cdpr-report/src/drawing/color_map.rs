@@ -1,14 +1,14 @@
 //! Map in colour of a value over a grid of two quantities, with contour lines and a colour bar.
 
 use crate::drawing::axis::{Axis, extent};
+use crate::drawing::decades::Decades;
 use crate::drawing::style::{self, Area, DrawingError, GREY, MARGIN, Pen, X_AXIS, px};
 use crate::error::ReportError;
-use crate::text::digits;
 use plotters::prelude::*;
 use std::ops::Range;
 
-/// Width of the colour bar with its axis [px].
-pub(crate) const COLOR_BAR: f64 = 96.0;
+/// Width of the colours of a colour bar [px].
+const COLOR_BAR: f64 = 26.0;
 const COLORS: usize = 128;
 /// Least distance between hatching lines along an axis [px].
 const HATCH: f64 = 8.0;
@@ -65,6 +65,8 @@ pub(crate) struct ColorMap {
     pub(crate) values: Vec<Option<f64>>,
     pub(crate) least: f64,
     pub(crate) greatest: f64,
+    /// Whether colours are by powers of ten.
+    pub(crate) by_decades: bool,
     /// Axis of the colour bar.
     color_axis: Axis,
 }
@@ -105,7 +107,9 @@ impl Cells {
         C: plotters::coord::CoordTranslate<From = (f64, f64)>,
     {
         let (columns, rows) = (self.x.values.len(), self.y.values.len());
-        let every = (HATCH * columns as f64 / style::WIDTH).ceil() as usize;
+        let (width, height) = plot.dim_in_pixel();
+        let among = |count: usize, size: u32| (f64::from(px(HATCH)) * count as f64 / f64::from(size)).ceil();
+        let every = among(columns, width).max(among(rows, height)) as usize;
         for cell in (0..columns * rows).filter(|cell| hatched(*cell)) {
             let (i, j) = (cell / rows, cell % rows);
             if i % every == j % every {
@@ -135,27 +139,23 @@ impl ColorMap {
             return Err(ReportError::Empty { what: "no point of the grid has a value" });
         }
         let color_axis = Axis::numbers(least..greatest, 9, label);
-        Ok(Self { cells, values, least, greatest, color_axis })
+        Ok(Self { cells, values, least, greatest, by_decades: false, color_axis })
     }
 
-    /// The same with colours by the logarithm, if the values are positive and range over a power of ten.
+    /// The same with colours by powers of ten, if the values range over them.
     pub(crate) fn by_decades(mut self) -> Self {
-        if !(self.least > 0.0 && self.greatest >= 10.0 * self.least) {
-            return self;
-        }
-        self.values.iter_mut().flatten().for_each(|value| *value = value.log10());
-        let range = self.least.log10()..self.greatest.log10();
-        let powers = range.start.floor() as i32..=range.end.ceil() as i32;
-        let steps: &[u8] = if range.end - range.start < 3.0 { &[1, 2, 5] } else { &[1] };
-        let tick = |(power, step): (i32, &u8)| {
-            // Written and read, no rounding shows.
-            let value = format!("{step}e{power}").parse::<f64>().unwrap_or_default();
-            (value.log10(), digits(value, 1))
-        };
-        let ticks = powers.flat_map(|power| steps.iter().map(move |step| (power, step))).map(tick);
-        let ticks = ticks.filter(|(value, _)| range.contains(value)).collect();
-        self.color_axis = Axis { range: range.clone(), ticks, label: self.color_axis.label };
+        let Some(scale) = Decades::of(self.values.iter().copied().flatten()) else { return self };
+        self.values.iter_mut().flatten().for_each(|value| *value = scale.place(*value));
+        let range = scale.place(self.least)..scale.place(self.greatest);
+        let ticks = scale.ticks(self.least..self.greatest);
+        self.color_axis = Axis::given(range, ticks, self.color_axis.label);
+        self.by_decades = true;
         self
+    }
+
+    /// Width of the colour bar with its axis [px].
+    pub(crate) fn bar_width(&self) -> f64 {
+        COLOR_BAR + self.color_axis.room() + MARGIN
     }
 
     /// Draws all cells, and contour lines at the ticks of the colour bar. A cell without a value is grey.

@@ -1,12 +1,8 @@
 //! Heading of a figure: title, lines and key above the charts.
 
-use crate::drawing::style::{Area, CHARACTER, DrawingError, LINE_HEIGHT, MARGIN, Pen, TEXT, WIDTH, px, text};
+use crate::drawing::sheet::Sheet;
+use crate::drawing::style::{Area, CHARACTER, DrawingError, LINE_HEIGHT, MARGIN, Pen, TEXT, px, text};
 
-const TITLE: f64 = 15.0;
-/// Height at which the title stands [px].
-pub(crate) const TITLE_AT: f64 = MARGIN + 0.5 * LINE_HEIGHT;
-/// Smallest readable text of a key [px].
-const SMALL: f64 = 9.0;
 /// Line of an entry of a key, its gap to the name, and the room of both with the gap to the next entry [px].
 const KEY_LINE: f64 = 24.0;
 const KEY_GAP: f64 = 5.0;
@@ -23,43 +19,86 @@ pub(crate) struct Heading<'a> {
 
 impl Heading<'_> {
     /// Height [px].
-    pub(crate) fn height(&self) -> f64 {
-        let rows = 1 + self.lines.len() + self.key_rows().count();
+    pub(crate) fn height(&self, sheet: Sheet) -> f64 {
+        let rows = self.texts(sheet).len() + self.key_rows(sheet).len();
         MARGIN + LINE_HEIGHT * rows as f64 + 4.0
     }
 
     /// Draws the heading and returns the rest of the area.
-    pub(crate) fn draw<'a>(&self, area: &Area<'a>) -> Result<Area<'a>, DrawingError> {
-        let (head, rest) = area.split_vertically(px(self.height()));
-        let mut y = TITLE_AT;
-        text(&head, self.title, TITLE, (MARGIN, y))?;
-        for line in self.lines {
+    pub(crate) fn draw<'a>(&self, sheet: Sheet, area: &Area<'a>) -> Result<Area<'a>, DrawingError> {
+        let (head, rest) = area.split_vertically(px(self.height(sheet)));
+        let mut y = MARGIN - 0.5 * LINE_HEIGHT;
+        for (line, size) in self.texts(sheet) {
             y += LINE_HEIGHT;
-            text(&head, line, TEXT, (MARGIN, y))?;
+            text(&head, &line, size, (MARGIN, y))?;
         }
-        for row in self.key_rows() {
+        for row in self.key_rows(sheet) {
             y += LINE_HEIGHT;
-            let size = key_size(row);
             let mut x = MARGIN;
             for (name, pen) in row {
                 pen.draw(&head, vec![(px(x), px(y)), (px(x + KEY_LINE), px(y))])?;
-                text(&head, name, size, (x + KEY_LINE + KEY_GAP, y))?;
-                x += KEY_ENTRY + CHARACTER * size * name.chars().count() as f64;
+                text(&head, name, TEXT, (x + KEY_LINE + KEY_GAP, y))?;
+                x += width_of(name);
             }
         }
         Ok(rest)
     }
 
-    /// Splits the key into two rows if its text would be too small in one.
-    fn key_rows(&self) -> impl Iterator<Item = &[(String, Pen)]> {
-        let rows = if key_size(self.key) < SMALL { 2 } else { 1 };
-        self.key.chunks(self.key.len().div_ceil(rows).max(1))
+    /// Title and lines, as they fit the width, with their sizes [px].
+    fn texts(&self, sheet: Sheet) -> Vec<(String, f64)> {
+        let title = sheet.has_title().then_some((self.title, sheet.title_size()));
+        let lines = self.lines.iter().map(|line| (line.as_str(), TEXT));
+        title.into_iter().chain(lines).flat_map(|(text, size)| sheet.lines_of(text, size)).collect()
+    }
+
+    /// Entries of the key, in rows that fit the width.
+    fn key_rows(&self, sheet: Sheet) -> Vec<&[(String, Pen)]> {
+        let room = sheet.width() - 2.0 * MARGIN + 12.0;
+        let (mut rows, mut first, mut used) = (Vec::new(), 0, 0.0);
+        for (k, (name, _)) in self.key.iter().enumerate() {
+            let width = width_of(name);
+            if k > first && used + width > room {
+                rows.push(&self.key[first..k]);
+                (first, used) = (k, 0.0);
+            }
+            used += width;
+        }
+        rows.extend((first < self.key.len()).then(|| &self.key[first..]));
+        rows
     }
 }
 
-/// Size of the text in a row of a key [px].
-fn key_size(row: &[(String, Pen)]) -> f64 {
-    let characters: usize = row.iter().map(|(name, _)| name.chars().count()).sum();
-    let room = WIDTH - 2.0 * MARGIN - KEY_ENTRY * row.len() as f64;
-    TEXT.min(room / (CHARACTER * characters as f64))
+/// Width of an entry of a key with the gap to the next one [px].
+fn width_of(name: &str) -> f64 {
+    KEY_ENTRY + CHARACTER * TEXT * name.chars().count() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::style::{BLUE, figure};
+
+    #[test]
+    fn a_narrow_heading_has_more_lines_of_the_same_letters_and_an_untitled_one_no_title() {
+        let key: Vec<_> = (1..=8).map(|k| (format!("cable {k}"), Pen::solid(BLUE, 1.0))).collect();
+        let lines = ["from 3.6 mm to 52 mm; 120 of 165 positions held".to_owned()];
+        let heading = Heading {
+            title: "CoGiRo: static deflection at z = 2 m, payload 50 kg, lengths kept",
+            lines: &lines,
+            key: &key,
+        };
+        let drawn = |sheet: Sheet| {
+            figure([sheet.width(), 300.0], |area| heading.draw(sheet, area).map(|_| ())).unwrap()
+        };
+        let (broad, narrow) = (Sheet::paper(180.0), Sheet::paper(88.0));
+        for svg in [drawn(broad), drawn(narrow)] {
+            let sizes: Vec<&str> =
+                svg.split("font-size=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+            let size = |text: &&str| text.parse::<f64>().unwrap();
+            assert!(!sizes.is_empty() && sizes.iter().all(|text| (105.0..=120.0).contains(&size(text))));
+        }
+        assert_eq!(heading.height(narrow) - heading.height(broad), 3.0 * LINE_HEIGHT);
+        assert_eq!(heading.height(broad) - heading.height(broad.untitled()), LINE_HEIGHT);
+        assert!(drawn(broad).contains("CoGiRo") && !drawn(broad.untitled()).contains("CoGiRo"));
+    }
 }

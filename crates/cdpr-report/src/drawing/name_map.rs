@@ -1,7 +1,8 @@
 //! Map of names over a plane, each name with its colour.
 
 use crate::drawing::heading::Heading;
-use crate::drawing::plane::{self, Paint, Plane};
+use crate::drawing::plane::{Paint, Plane};
+use crate::drawing::sheet::Sheet;
 use crate::drawing::style::{BLUE, GREEN, Pen};
 use crate::error::ReportError;
 use cdpr_robot::Robot;
@@ -22,6 +23,7 @@ pub(crate) fn name_map(
     title: &str,
     line: String,
     at: &[Option<&str>],
+    sheet: Sheet,
 ) -> Result<String, ReportError> {
     let mut names: Vec<(&str, usize)> = Vec::new();
     for name in at.iter().copied().flatten() {
@@ -35,11 +37,11 @@ pub(crate) fn name_map(
         names.iter().zip(COLORS).find(|((known, _), _)| *known == name).map_or(OTHERS, |(_, color)| color)
     };
     let colors = at.iter().map(|name| name.map(color)).collect();
-    let mut key: Vec<_> = plane::key().into();
+    let mut key = plane.key();
     key.extend(names.iter().zip(COLORS).map(|((name, _), color)| ((*name).to_owned(), Pen::bar(color))));
     if names.len() > COLORS.len() {
         key.push((format!("{} others", names.len() - COLORS.len()), Pen::bar(OTHERS)));
     }
     let heading = Heading { title, lines: &[line], key: &key };
-    plane.figure(robot, &heading, &Paint::Colors(plane.cells()?, colors), |cell| at[cell].is_none())
+    plane.figure(robot, &heading, &Paint::Colors(plane.cells()?, colors), |cell| at[cell].is_none(), sheet)
 }

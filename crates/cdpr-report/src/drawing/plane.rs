@@ -1,11 +1,13 @@
 //! Planes of positions in the base frame, and the maps over them.
 
-use crate::drawing::axis::{Axis, Grid as Lines, chart};
-use crate::drawing::color_map::{COLOR_BAR, Cells, ColorMap, Nodes};
+use crate::drawing::axis::{Axis, Grid as Lines, chart, extent};
+use crate::drawing::color_map::{Cells, ColorMap, Nodes};
 use crate::drawing::heading::Heading;
+use crate::drawing::sheet::Sheet;
 use crate::drawing::style::{self, DrawingError, GREY, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, px};
 use crate::error::ReportError;
-use cdpr_robot::{Axis as Direction, Robot, frame};
+use cdpr_assess::Boundary;
+use cdpr_robot::{Axis as Direction, Robot, Vector3, frame};
 use cdpr_study::Grid;
 use plotters::prelude::*;
 use std::ops::Range;
@@ -16,6 +18,10 @@ const ROOM: f64 = 0.04;
 const HEIGHTS: Range<f64> = 160.0..760.0;
 /// Pen of the rectangle around the exit points.
 const FRAME: Pen = Pen { color: VERMILLION, width: 1.5, dash: Some(6.0) };
+
+/// Pen of the boundary, and that below it, which sets it off from dark colours. As contour lines, both differ
+/// from pure black and white, which a dark page swaps.
+const BOUNDARY: [Pen; 2] = [Pen::solid(RGBColor(254, 254, 254), 3.6), Pen::solid(RGBColor(1, 1, 1), 1.8)];
 
 /// Plane of a grid of positions.
 pub(crate) struct Plane {
@@ -28,6 +34,8 @@ pub(crate) struct Plane {
     axes: [(Direction, Vec<f64>); 2],
     /// Indices of its positions in the grid. The second axis runs faster.
     pub(crate) positions: Vec<usize>,
+    /// Lines of the boundary [m], and what it is called.
+    boundary: Option<(Vec<Vec<(f64, f64)>>, &'static str)>,
 }
 
 /// Content of a map.
@@ -36,12 +44,6 @@ pub(crate) enum Paint {
     Values(ColorMap),
     /// One colour per cell, which the key explains.
     Colors(Cells, Vec<Option<RGBColor>>),
-}
-
-/// Entries that the key of every map has.
-pub(crate) fn key() -> [(String, Pen); 3] {
-    [("frame of the exit points", FRAME), ("exit points", Pen::bar(ORANGE)), ("not held", Pen::bar(GREY))]
-        .map(|(name, pen)| (name.to_owned(), pen))
 }
 
 impl Plane {
@@ -75,9 +77,55 @@ impl Plane {
                 coordinate,
                 axes: [u, v].map(|axis| (axis, grid.axis(axis).coordinates())),
                 positions: (0..points(u)).flat_map(row).collect(),
+                boundary: None,
             }
         };
         grid.axis(normal).coordinates().into_iter().enumerate().map(layer).collect()
+    }
+
+    /// The same with what a boundary of this name has in the plane.
+    pub(crate) fn with_boundary(self, boundary: &Boundary, name: &'static str) -> Self {
+        let [u, v] = self.axes.each_ref().map(|(axis, _)| *axis as usize);
+        let seen = |point: &Vector3<f64>| (point[u], point[v]);
+        let closed = |polygon: &Vec<Vector3<f64>>| -> Vec<(f64, f64)> {
+            polygon.iter().chain(polygon.first()).map(seen).collect()
+        };
+        let polygons = boundary.polygons.iter().map(closed);
+        // Triangles in the plane have no line: those of the lowest and the highest layer are cut within.
+        let along = |triangle: &[Vector3<f64>; 3]| triangle.map(|point| point[self.normal as usize]);
+        let Range { start, end } = extent(boundary.triangles.iter().flat_map(along));
+        let within = 1e-6 * (end - start);
+        let level = match (start..=end).contains(&self.coordinate) {
+            true => self.coordinate.clamp(start + within, end - within),
+            false => self.coordinate,
+        };
+        let cut = boundary.triangles.iter().filter_map(|triangle| self.cut(triangle, level));
+        let lines = polygons.chain(cut.map(|ends| ends.each_ref().map(seen).to_vec())).collect();
+        Self { boundary: Some((lines, name)), ..self }
+    }
+
+    /// Where a triangle crosses the plane at this coordinate.
+    fn cut(&self, triangle: &[Vector3<f64>; 3], level: f64) -> Option<[Vector3<f64>; 2]> {
+        let above = triangle.map(|point| point[self.normal as usize] - level);
+        let crossing = |k: usize| {
+            let next = (k + 1) % 3;
+            let share = above[k] / (above[k] - above[next]);
+            ((above[k] < 0.0) != (above[next] < 0.0))
+                .then(|| triangle[k] + share * (triangle[next] - triangle[k]))
+        };
+        let mut crossings = (0..3).filter_map(crossing);
+        Some([crossings.next()?, crossings.next()?])
+    }
+
+    /// Entries that the key of every map has.
+    pub(crate) fn key(&self) -> Vec<(String, Pen)> {
+        let all = [
+            ("frame of the exit points", FRAME),
+            ("exit points", Pen::bar(ORANGE)),
+            ("not held", Pen::bar(GREY)),
+        ];
+        let boundary = self.boundary.iter().map(|(_, name)| (*name, BOUNDARY[1]));
+        all.into_iter().chain(boundary).map(|(name, pen)| (name.to_owned(), pen)).collect()
     }
 
     /// Suffix of the file of a layer of a box, such as `_z00`.
@@ -106,17 +154,19 @@ impl Plane {
         heading: &Heading,
         paint: &Paint,
         hatched: impl Fn(usize) -> bool,
+        sheet: Sheet,
     ) -> Result<String, ReportError> {
         let (cells, bar) = match paint {
-            Paint::Values(map) => (&map.cells, COLOR_BAR),
+            Paint::Values(map) => (&map.cells, map.bar_width()),
             Paint::Colors(cells, _) => (cells, 0.0),
         };
         let (x, y) = (widened(&cells.x), widened(&cells.y));
-        let width = style::WIDTH - bar - y.room() - 2.0 * MARGIN;
+        let width = sheet.width() - bar - y.room() - 2.0 * MARGIN;
         let ratio = (y.range.end - y.range.start) / (x.range.end - x.range.start);
         let height = (width * ratio).clamp(HEIGHTS.start, HEIGHTS.end);
-        style::figure(heading.height() + 4.0 + height + X_AXIS + MARGIN, |area| {
-            let (left, right) = heading.draw(area)?.split_horizontally(px(style::WIDTH - bar));
+        let height = heading.height(sheet) + 4.0 + height + X_AXIS + MARGIN;
+        style::figure([sheet.width(), height], |area| {
+            let (left, right) = heading.draw(sheet, area)?.split_horizontally(px(sheet.width() - bar));
             let chart = chart(&left, &x, &y, Lines::None)?;
             let plot = chart.plotting_area();
             match paint {
@@ -125,6 +175,9 @@ impl Plane {
             }
             cells.hatch(plot, hatched)?;
             self.draw_frame(plot, robot, &x.range, &y.range)?;
+            for (line, pen) in self.boundary.iter().flat_map(|(lines, _)| BOUNDARY.map(|pen| (lines, pen))) {
+                line.iter().try_for_each(|line| pen.draw(plot, line.clone()))?;
+            }
             match paint {
                 Paint::Values(map) => map.draw_color_bar(&right),
                 Paint::Colors(..) => Ok(()),

@@ -11,9 +11,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 pub(crate) type DrawingError = DrawingAreaErrorKind<std::io::Error>;
 
-/// Width of a figure [px].
-pub(crate) const WIDTH: f64 = 700.0;
-/// Height of a figure of one chart [px].
+/// Greatest height of a figure of one chart [px].
 pub(crate) const HEIGHT: f64 = 450.0;
 /// Height of a horizontal axis with its label below a chart [px].
 pub(crate) const X_AXIS: f64 = 42.0;
@@ -28,7 +26,10 @@ pub(crate) const VERMILLION: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
 /// Colour of values that could not be computed, or whose interval contains zero.
 pub(crate) const GREY: RGBColor = RGBColor(0xB0, 0xB0, 0xB0);
 
+/// Size of the letters [px].
 pub(crate) const TEXT: f64 = 12.0;
+/// Size of the smallest letters [px], which have 7 points where the others have 8.
+pub(crate) const SMALL: f64 = 10.5;
 pub(crate) const LINE_HEIGHT: f64 = 20.0;
 /// Mean width of a character over the size of its font. It is an upper estimate, because the font of the
 /// reader is unknown.
@@ -85,12 +86,12 @@ impl Pen {
     }
 }
 
-/// Draws a figure of this height [px] and returns its SVG text, in which no character of a name is obeyed.
+/// Draws a figure of this width and height [px] and returns its SVG text, in which no character of a name is obeyed.
 pub(crate) fn figure(
-    height: f64,
+    [width, height]: [f64; 2],
     draw: impl FnOnce(&Area) -> Result<(), DrawingError>,
 ) -> Result<String, ReportError> {
-    let (width_units, height_units) = (px(WIDTH), px(height));
+    let (width_units, height_units) = (px(width), px(height));
     let mut svg = String::new();
     {
         let backend = SVGBackend::with_string(&mut svg, (width_units as u32, height_units as u32));
@@ -103,13 +104,18 @@ pub(crate) fn figure(
     // What is so without being said, a fifth of a figure; in texts these marks are escaped.
     let mut svg = shown_lines(&svg).replace(" opacity=\"1\"", "").replace(" stroke=\"none\"/>", "/>");
     svg = svg.replace(&format!(" {FONT}"), "");
-    let size = format!("width=\"{WIDTH}\" height=\"{height}\" {FONT}");
+    let size = format!("width=\"{width}\" height=\"{height}\" {FONT}");
     Ok(compact(&svg.replacen(&drawn, &size, 1)))
+}
+
+/// Width of an area [px].
+pub(crate) fn width_of(area: &Area) -> f64 {
+    f64::from(area.dim_in_pixel().0) / UNITS
 }
 
 /// Writes text from (x, y) [px] to the right, centred on its height. Text that is too long is made smaller.
 pub(crate) fn text(area: &Area, text: &str, size: f64, (x, y): (f64, f64)) -> Result<(), DrawingError> {
-    let room = (WIDTH - MARGIN - x) / (CHARACTER * text.chars().count().max(1) as f64);
+    let room = (width_of(area) - MARGIN - x) / (CHARACTER * text.chars().count().max(1) as f64);
     area.draw_text(text, &font(size.min(room)).pos(Pos::new(HPos::Left, VPos::Center)), (px(x), px(y)))
 }
 

@@ -2,6 +2,7 @@
 
 use crate::drawing::axis::{Axis, Grid, chart, extent};
 use crate::drawing::heading::Heading;
+use crate::drawing::sheet::Sheet;
 use crate::drawing::style::{self, BLUE, GREEN, HEIGHT, ORANGE, Pen, VERMILLION};
 use crate::error::ReportError;
 use plotters::prelude::*;
@@ -43,7 +44,7 @@ pub struct CycleBranch {
 /// # Errors
 /// [`ReportError::Empty`] without points, [`ReportError::Invalid`] for a point that is not finite or for
 /// more than four branches.
-pub fn cycle(cycle: &Cycle) -> Result<String, ReportError> {
+pub fn cycle(cycle: &Cycle, sheet: Sheet) -> Result<String, ReportError> {
     let points = || cycle.branches.iter().flat_map(|branch| &branch.points);
     if points().next().is_none() {
         return Err(ReportError::Empty { what: "a cycle without points" });
@@ -67,8 +68,8 @@ pub fn cycle(cycle: &Cycle) -> Result<String, ReportError> {
     let key: Vec<_> =
         cycle.branches.iter().zip(PENS).map(|(branch, pen)| (branch.name.clone(), pen)).collect();
     let heading = Heading { title: cycle.title, lines: cycle.lines, key: &key };
-    style::figure(HEIGHT, |area| {
-        let chart = chart(&heading.draw(area)?, &x, &y, Grid::Horizontal)?;
+    style::figure([sheet.width(), sheet.height(heading.height(sheet), HEIGHT)], |area| {
+        let chart = chart(&heading.draw(sheet, area)?, &x, &y, Grid::Horizontal)?;
         let plot = chart.plotting_area();
         for (CycleBranch { points, .. }, pen) in cycle.branches.iter().zip(PENS) {
             pen.draw(plot, points.clone())?;

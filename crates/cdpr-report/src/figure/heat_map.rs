@@ -3,11 +3,12 @@
 use crate::drawing::color_map::ColorMap;
 use crate::drawing::heading::Heading;
 use crate::drawing::name_map::name_map;
-use crate::drawing::plane::{self, Paint, Plane};
+use crate::drawing::plane::{Paint, Plane};
+use crate::drawing::sheet::Sheet;
 use crate::error::ReportError;
 use crate::figure::pose_map::NamedMap;
-use crate::text::{digits, number};
-use cdpr_assess::{HELD, WorkspaceRow, WorkspaceSummary};
+use crate::text::digits;
+use cdpr_assess::{Boundary, HELD, WorkspaceRow, WorkspaceSummary};
 use cdpr_robot::Robot;
 use rayon::prelude::*;
 
@@ -161,8 +162,8 @@ impl MapQuantity {
             Self::PlatformFrequency => row.platform_frequency_hz,
             Self::GreatestTension => row.greatest_tension,
             Self::GreatestTensionRecomputed => row.recomputed_greatest_tension,
-            Self::PayloadRecomputed => row.payload_recomputed_kg,
-            Self::PayloadKept => row.payload_kept_kg,
+            Self::PayloadRecomputed => row.payload_recomputed_kg.map(beyond_rounding),
+            Self::PayloadKept => row.payload_kept_kg.map(beyond_rounding),
             Self::MarginRecomputed => row.margin_recomputed,
             Self::NearestCables => row.nearest_cables_mm,
             Self::NearestToPlatform => row.nearest_to_platform_mm,
@@ -174,6 +175,11 @@ impl MapQuantity {
             Self::AfterBreak => row.break_mm,
         }
     }
+}
+
+/// A payload below a gram is a rounding error of two tensions [kg].
+fn beyond_rounding(payload: f64) -> f64 {
+    if payload < 1e-3 { 0.0 } else { payload }
 }
 
 /// Draws a quantity over a plane in colour, with the exit points and the rectangle around them.
@@ -188,8 +194,9 @@ pub fn heat_map(
     robot: &Robot,
     summary: &WorkspaceSummary,
     quantity: MapQuantity,
+    sheet: Sheet,
 ) -> Result<String, ReportError> {
-    values(&plane_of(summary)?, robot, summary, quantity)
+    values(&plane_of(summary)?, robot, summary, quantity, sheet)
 }
 
 fn values(
@@ -197,6 +204,7 @@ fn values(
     robot: &Robot,
     summary: &WorkspaceSummary,
     quantity: MapQuantity,
+    sheet: Sheet,
 ) -> Result<String, ReportError> {
     let (words, label, unit) = quantity.words();
     let rows: Vec<_> = plane.positions.iter().map(|position| &summary.rows[*position]).collect();
@@ -205,19 +213,15 @@ fn values(
         "" => (label.to_owned(), String::new()),
         unit => (format!("{label} [{unit}]"), format!(" {unit}")),
     };
-    let mut map = ColorMap::new(plane.cells()?, values, quantity.name(), &label)?;
+    let map = ColorMap::new(plane.cells()?, values, quantity.name(), &label)?.by_decades();
     let mut lines = Vec::new();
-    let mut shown: fn(f64) -> String = |value| number(value, 3);
     if let Some(shaking) = summary.shaking.filter(|_| quantity.is_amplitude()) {
-        map = map.by_decades();
-        shown = |value| digits(value, 3);
         lines.push(format!("shaken from {}", shaking.conditions()));
     }
     if let Some(weather) = summary.weather.filter(|_| quantity == MapQuantity::Weather) {
         lines.push(weather.conditions());
     }
     if let Some(factors) = summary.factors.filter(|_| quantity == MapQuantity::Utilization) {
-        shown = |value| digits(value, 3);
         lines.push(factors.conditions());
     }
     let hatched = |index: usize| !quantity.is_held(rows[index]);
@@ -226,19 +230,20 @@ fn values(
     lines.insert(
         0,
         format!(
-            "{}{unit} to {}{unit}; {held} of {} positions held with all tensions within limits, the others \
+            "{}{unit} to {}{unit}{}; {held} of {} positions held with all tensions within limits, the others \
                 are hatched",
-            shown(map.least),
-            shown(map.greatest),
+            digits(map.least, 4),
+            digits(map.greatest, 4),
+            if map.by_decades { ", colours by powers of ten" } else { "" },
             rows.len()
         ),
     );
     let heading = Heading {
         title: &format!("{}: {words} at {}, {}{borne}", summary.robot, plane.words(), summary.conditions()),
         lines: &lines,
-        key: &plane::key(),
+        key: &plane.key(),
     };
-    plane.figure(robot, &heading, &Paint::Values(map), hatched)
+    plane.figure(robot, &heading, &Paint::Values(map), hatched, sheet)
 }
 
 /// Draws, over a plane, the tolerance that contributes most to the variance of |dp|. Positions without
@@ -246,11 +251,16 @@ fn values(
 ///
 /// # Errors
 /// As [`heat_map`], and [`ReportError::Empty`] for a workspace without tolerances.
-pub fn tolerance_map(robot: &Robot, summary: &WorkspaceSummary) -> Result<String, ReportError> {
-    names(&plane_of(summary)?, robot, summary)
+pub fn tolerance_map(robot: &Robot, summary: &WorkspaceSummary, sheet: Sheet) -> Result<String, ReportError> {
+    names(&plane_of(summary)?, robot, summary, sheet)
 }
 
-fn names(plane: &Plane, robot: &Robot, summary: &WorkspaceSummary) -> Result<String, ReportError> {
+fn names(
+    plane: &Plane,
+    robot: &Robot,
+    summary: &WorkspaceSummary,
+    sheet: Sheet,
+) -> Result<String, ReportError> {
     let rows = plane.positions.iter().map(|position| &summary.rows[*position]);
     let names: Vec<_> = rows.map(|row| row.dominant.as_deref()).collect();
     let shown = names.iter().flatten().count();
@@ -264,25 +274,41 @@ fn names(plane: &Plane, robot: &Robot, summary: &WorkspaceSummary) -> Result<Str
         summary.conditions()
     );
     let line = format!("{shown} of {} positions, the others are hatched", names.len());
-    name_map(plane, robot, &title, line, &names)
+    name_map(plane, robot, &title, line, &names, sheet)
 }
 
 /// Draws all maps of a plane, or of `most` layers of a box, spread evenly from the lowest to the highest one.
-/// The names of layers end in their numbers, `_z00`, ...
-pub fn workspace_maps(robot: &Robot, summary: &WorkspaceSummary, most: usize) -> Vec<NamedMap> {
+/// The names of layers end in their numbers, `_z00`, ... A boundary that was computed is drawn in each of them.
+pub fn workspace_maps(
+    robot: &Robot,
+    summary: &WorkspaceSummary,
+    boundary: Option<&Boundary>,
+    most: usize,
+    sheet: Sheet,
+) -> Vec<NamedMap> {
     let shown: Vec<_> = MapQuantity::ALL.into_iter().filter(|of| of.exists(summary)).collect();
     let of_plane = |plane: &Plane| {
         let name = |quantity: &str| format!("{quantity}{}", plane.suffix());
-        let map =
-            |of: &MapQuantity| NamedMap { name: name(of.name()), svg: values(plane, robot, summary, *of) };
+        let map = |of: &MapQuantity| NamedMap {
+            name: name(of.name()),
+            svg: values(plane, robot, summary, *of, sheet),
+        };
         let mut maps: Vec<_> = shown.iter().map(map).collect();
         if !summary.uncertainties.is_empty() {
-            let svg = names(plane, robot, summary);
+            let svg = names(plane, robot, summary, sheet);
             maps.push(NamedMap { name: name("dominant_tolerance"), svg });
         }
         maps
     };
-    let planes = Plane::of(&summary.grid);
+    let borne = match summary.boundary.as_ref().map(|boundary| boundary.way) {
+        Some("kept") => "boundary, lengths kept",
+        _ => "boundary, tensions recomputed",
+    };
+    let bounded = |plane: Plane| match boundary {
+        Some(boundary) => plane.with_boundary(boundary, borne),
+        None => plane,
+    };
+    let planes: Vec<Plane> = Plane::of(&summary.grid).into_iter().map(bounded).collect();
     spread(planes.len(), most).into_par_iter().flat_map(|layer| of_plane(&planes[layer])).collect()
 }
 

@@ -2,6 +2,7 @@
 
 use crate::drawing::axis::{Axis, Grid, chart};
 use crate::drawing::heading::Heading;
+use crate::drawing::sheet::Sheet;
 use crate::drawing::style::{self, BLUE, GREEN, HEIGHT, Pen, VERMILLION};
 use crate::error::ReportError;
 use crate::text::number;
@@ -29,7 +30,7 @@ const POINTS: usize = 600;
 /// # Errors
 /// [`ReportError::Empty`] without counts, [`ReportError::Invalid`] for bins without width, unless there is
 /// one edge more than bins, or for a value that is not finite.
-pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
+pub fn histogram(summary: &SamplingSummary, sheet: Sheet) -> Result<String, ReportError> {
     let empty = ReportError::Empty { what: "histogram" };
     let (Some(histogram), Some(values)) = (&summary.histogram, &summary.values) else { return Err(empty) };
     let (bars, output) = (densities(histogram)?, summary.output);
@@ -89,8 +90,8 @@ pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
         )],
         key: &key,
     };
-    style::figure(HEIGHT, |area| {
-        let chart = chart(&heading.draw(area)?, &x, &y, Grid::Horizontal)?;
+    style::figure([sheet.width(), sheet.height(heading.height(sheet), HEIGHT)], |area| {
+        let chart = chart(&heading.draw(sheet, area)?, &x, &y, Grid::Horizontal)?;
         let plot = chart.plotting_area();
         for &(from, to, density) in &bars {
             plot.draw(&Rectangle::new([(from, 0.0), (to, density)], BARS.filled()))?;

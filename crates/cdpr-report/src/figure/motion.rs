@@ -2,11 +2,12 @@
 
 use crate::drawing::axis::{Axis, Grid, chart, extent};
 use crate::drawing::heading::Heading;
+use crate::drawing::sheet::Sheet;
 use crate::drawing::style::{self, Area, BLUE, DrawingError, GREEN, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS};
 use crate::error::ReportError;
 use plotters::prelude::BLACK;
 
-/// Height of the plot of each quantity [px].
+/// Height of the plot of each quantity [px], at most.
 const PLOT: f64 = 190.0;
 /// Most points of a curve that are drawn.
 const POINTS: usize = 2000;
@@ -26,7 +27,12 @@ pub struct Quantity {
 ///
 /// # Errors
 /// [`ReportError::Empty`] without points, [`ReportError::Invalid`] for a point that is not finite.
-pub fn over_time(title: &str, lines: &[String], quantities: &[Quantity]) -> Result<String, ReportError> {
+pub fn over_time(
+    title: &str,
+    lines: &[String],
+    quantities: &[Quantity],
+    sheet: Sheet,
+) -> Result<String, ReportError> {
     let all = || quantities.iter().flat_map(|quantity| &quantity.curves);
     for (name, points) in all() {
         for (time, value) in points {
@@ -40,9 +46,10 @@ pub fn over_time(title: &str, lines: &[String], quantities: &[Quantity]) -> Resu
     let most = quantities.iter().map(|quantity| quantity.curves.len()).max().unwrap_or(0);
     let key: Vec<_> = (0..most.min(PENS)).map(|k| (names(quantities, k), pen(k))).collect();
     let heading = Heading { title, lines, key: &key };
-    let height = heading.height() + quantities.len() as f64 * (PLOT + X_AXIS + 2.0 * MARGIN);
-    style::figure(height, |area| {
-        let plots = heading.draw(area)?.split_evenly((quantities.len(), 1));
+    let height =
+        heading.height(sheet) + quantities.len() as f64 * (sheet.plot_height(PLOT) + X_AXIS + 2.0 * MARGIN);
+    style::figure([sheet.width(), height], |area| {
+        let plots = heading.draw(sheet, area)?.split_evenly((quantities.len(), 1));
         plots.iter().zip(quantities).try_for_each(|(area, quantity)| draw(area, quantity))
     })
 }
@@ -105,14 +112,14 @@ mod tests {
         let place = Quantity { label: "place [mm]".to_owned(), curves: vec![curve("x", 1.0)] };
         let curves = (1..=8).map(|k| curve(&format!("cable {k}"), f64::from(k))).collect();
         let tensions = Quantity { label: "tension [N]".to_owned(), curves };
-        let svg = over_time("falls", &[], &[place.clone(), tensions]).unwrap();
+        let svg = over_time("falls", &[], &[place.clone(), tensions], Sheet::SCREEN).unwrap();
         for text in ["x, cable 1", "cable 8", "time [s]", "place [mm]", "tension [N]", "falls"] {
             assert!(svg.contains(text), "{text}");
         }
         let none = Quantity { curves: vec![("x".to_owned(), Vec::new())], ..place.clone() };
-        assert!(over_time("", &[], &[none]).is_err());
+        assert!(over_time("", &[], &[none], Sheet::SCREEN).is_err());
         let invalid = Quantity { curves: vec![("x".to_owned(), vec![(0.0, f64::NAN)])], ..place };
-        assert!(over_time("", &[], &[invalid]).is_err());
+        assert!(over_time("", &[], &[invalid], Sheet::SCREEN).is_err());
     }
 
     #[test]

@@ -2,8 +2,9 @@
 
 use crate::drawing::axis::{Axis, Grid, chart, extent};
 use crate::drawing::heading::Heading;
+use crate::drawing::sheet::Sheet;
 use crate::drawing::style::{
-    self, Area, BLUE, DrawingError, GREY, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, font, px,
+    self, Area, BLUE, DrawingError, GREY, MARGIN, ORANGE, Pen, SMALL, VERMILLION, X_AXIS, font, px,
 };
 use crate::error::ReportError;
 use crate::text::{beyond_rounding, digits};
@@ -16,10 +17,8 @@ use std::ops::Range;
 
 /// Half width of the bands, in standard deviations.
 const WIDTHS: f64 = 2.0;
-/// Height of the plot of each quantity [px].
+/// Height of the plot of each quantity [px], at most.
 const PLOT: f64 = 180.0;
-/// Height of the numbers of the cables [px].
-const NUMBER: f64 = 9.0;
 const JUMP: Pen = Pen { color: VERMILLION, width: 1.2, dash: Some(6.0) };
 const LIMIT: Pen = Pen { color: BLACK, width: 1.0, dash: Some(3.0) };
 const CURVE: Pen = Pen::solid(BLUE, 1.4);
@@ -40,7 +39,12 @@ struct Quantity {
 ///
 /// # Errors
 /// [`ReportError::Empty`] if no pose is held, [`ReportError::Invalid`] for a value that is not finite.
-pub fn path_view(robot: &Robot, load: &Load, poses: &[Option<PathPose>]) -> Result<String, ReportError> {
+pub fn path_view(
+    robot: &Robot,
+    load: &Load,
+    poses: &[Option<PathPose>],
+    sheet: Sheet,
+) -> Result<String, ReportError> {
     if !poses.iter().any(Option::is_some) {
         return Err(ReportError::Empty { what: "no pose of the path is held" });
     }
@@ -77,10 +81,11 @@ pub fn path_view(robot: &Robot, load: &Load, poses: &[Option<PathPose>]) -> Resu
     }
     let title = format!("{} along a path of {} poses", shown(&robot.name), poses.len());
     let heading = Heading { title: &title, lines: &[line], key: &key };
-    let height = heading.height() + quantities.len() as f64 * (PLOT + X_AXIS + 2.0 * MARGIN);
-    style::figure(height, |area| {
-        let plots = heading.draw(area)?.split_evenly((quantities.len(), 1));
-        plots.iter().zip(&quantities).try_for_each(|(area, quantity)| quantity.draw(area, poses))
+    let height =
+        heading.height(sheet) + quantities.len() as f64 * (sheet.plot_height(PLOT) + X_AXIS + 2.0 * MARGIN);
+    style::figure([sheet.width(), height], |area| {
+        let plots = heading.draw(sheet, area)?.split_evenly((quantities.len(), 1));
+        plots.iter().zip(&quantities).try_for_each(|(area, quantity)| quantity.draw(area, poses, sheet))
     })
 }
 
@@ -173,7 +178,7 @@ impl Quantity {
         ends
     }
 
-    fn draw(&self, area: &Area, poses: &[Option<PathPose>]) -> Result<(), DrawingError> {
+    fn draw(&self, area: &Area, poses: &[Option<PathPose>], sheet: Sheet) -> Result<(), DrawingError> {
         let x = Axis::numbers(0.5..poses.len() as f64 + 0.5, poses.len().min(10), "pose");
         let y = Axis::numbers(self.range(), 5, self.label);
         let (bottom, top) = (y.range.start, y.range.end);
@@ -200,9 +205,9 @@ impl Quantity {
             }
         }
         if self.curves.len() > 1 {
-            let apart = NUMBER / PLOT * (top - bottom);
+            let apart = SMALL / sheet.plot_height(PLOT) * (top - bottom);
             for (number, (x, y)) in self.numbers(apart) {
-                let style = font(NUMBER).pos(Pos::new(HPos::Left, VPos::Center));
+                let style = font(SMALL).pos(Pos::new(HPos::Left, VPos::Center));
                 plot.draw(&Text::new(format!("\u{a0}{number}"), (x, y), style))?;
             }
         }

@@ -3,7 +3,10 @@
 
 use crate::drawing::axis::{Axis, extent};
 use crate::drawing::heading::Heading;
-use crate::drawing::style::{self, Area, BLUE, DrawingError, GREEN, GREY, MARGIN, ORANGE, Pen, pixel, text};
+use crate::drawing::sheet::Sheet;
+use crate::drawing::style::{
+    self, Area, BLUE, DrawingError, GREEN, GREY, MARGIN, ORANGE, Pen, SMALL, pixel, text,
+};
 use crate::error::ReportError;
 use crate::text::number;
 use cdpr_robot::{Axis as Coordinate, Parameter, Pose, Robot, Vector3};
@@ -15,20 +18,16 @@ use std::ops::Range;
 
 /// Names and colours of the bars of x, y and z.
 const COORDINATES: [(&str, RGBColor); 3] = [("x", BLUE), ("y", ORANGE), ("z", GREEN)];
-/// Height of a panel with its title [px].
-const PANEL: f64 = 286.0;
+/// Height of a line of the title of a panel [px].
 const PANEL_TITLE: f64 = 22.0;
-/// Ranges of the plan in which the feet of the bars lie [px].
-const PLAN: [(f64, f64); 2] = [(30.0, 450.0), (98.0, 252.0)];
 /// Height of the longest bar, width of a bar, and size of the bars of a point with their names [px].
 const LONGEST: f64 = 62.0;
 const BAR: f64 = 9.0;
 const ROOM: (f64, f64) = (35.0, 90.0);
-/// Left edges of the scale and of the list of the largest indices [px].
-const SCALE: f64 = 520.0;
-const LIST: f64 = 560.0;
+/// Largest indices that are listed, the height of their lines and the width of the list [px].
 const LISTED: usize = 8;
-const SMALL: f64 = 10.0;
+const LINE: f64 = 15.0;
+const LIST: f64 = 84.0;
 
 /// Kind of points of a robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,6 +88,7 @@ pub fn point_effects(
     robot: &Robot,
     samplings: &[NamedSampling],
     points: Points,
+    sheet: Sheet,
 ) -> Result<String, ReportError> {
     let panels: Vec<Panel> =
         samplings.iter().map(|sampling| Panel::new(robot, sampling, points)).collect::<Result<_, _>>()?;
@@ -108,10 +108,60 @@ pub fn point_effects(
         ],
         key: &COORDINATES.map(|(name, color)| (name.to_owned(), Pen::bar(color))),
     };
-    style::figure(heading.height() + PANEL * panels.len() as f64, |area| {
-        let areas = heading.draw(area)?.split_evenly((panels.len(), 1));
-        areas.iter().zip(&panels).try_for_each(|(area, panel)| panel.draw(area, points.letter(), &scale))
+    let titles = |panel: &Panel| sheet.lines_of(&panel.title, style::TEXT);
+    let lines = panels.iter().map(|panel| titles(panel).len()).max().unwrap_or(1);
+    let places = Places::new(sheet, lines);
+    let size = [sheet.width(), heading.height(sheet) + places.height * panels.len() as f64];
+    style::figure(size, |area| {
+        let areas = heading.draw(sheet, area)?.split_evenly((panels.len(), 1));
+        areas.iter().zip(&panels).try_for_each(|(area, panel)| {
+            for (line, (title, size)) in titles(panel).iter().enumerate() {
+                text(area, title, *size, (MARGIN, PANEL_TITLE * (line as f64 + 0.5)))?;
+            }
+            panel.draw(area, points.letter(), &scale, &places)
+        })
     })
+}
+
+/// Where the parts of a panel are [px].
+struct Places {
+    height: f64,
+    /// Ranges of the plan in which the feet of the bars lie.
+    plan: [(f64, f64); 2],
+    /// Foot of the scale.
+    scale: (f64, f64),
+    /// Left end of the first line of the list.
+    list: (f64, f64),
+    /// Left end of the lines with the extent of the plan.
+    extent: (f64, f64),
+}
+
+impl Places {
+    /// Scale and list are at the right of the plan, or below it where the figure is narrow. `lines` is the
+    /// number of lines of the longest title.
+    fn new(sheet: Sheet, lines: usize) -> Self {
+        let width = sheet.width();
+        let top = PANEL_TITLE * (lines - 1) as f64;
+        let (upper, lower) = (top + 98.0, top + 252.0);
+        if sheet.is_narrow() {
+            let below = lower + 40.0;
+            return Self {
+                height: below + LINE * (LISTED + 3) as f64 + MARGIN,
+                plan: [(30.0, width - 30.0), (upper, lower)],
+                scale: (0.2 * width, below + LONGEST),
+                list: (0.45 * width, below),
+                extent: (MARGIN, below + LINE * (LISTED + 1) as f64 + 0.5 * LINE),
+            };
+        }
+        let foot = upper + 20.0;
+        Self {
+            height: lower + 34.0,
+            plan: [(30.0, width - 250.0), (upper, lower)],
+            scale: (width - 180.0, foot),
+            list: (width - 140.0, foot - LONGEST),
+            extent: (width - 212.0, lower - 22.0),
+        }
+    }
 }
 
 /// The t-Student index of a coordinate of a point.
@@ -171,9 +221,8 @@ impl Panel {
         })
     }
 
-    fn draw(&self, area: &Area, letter: char, scale: &Axis) -> Result<(), DrawingError> {
-        text(area, &self.title, style::TEXT, (MARGIN, 0.5 * PANEL_TITLE))?;
-        let plan = Plan::new(&self.positions, self.center);
+    fn draw(&self, area: &Area, letter: char, scale: &Axis, places: &Places) -> Result<(), DrawingError> {
+        let plan = Plan::new(&self.positions, self.center, places.plan);
         let outline: Vec<(i32, i32)> = plan.outline(&self.positions).into_iter().map(pixel).collect();
         Pen::solid(GREY, 0.8).draw(area, outline)?;
         let (x, y) = plan.pixels(self.center);
@@ -198,46 +247,45 @@ impl Panel {
                 centred(area, &number(largest, 1), (foot.0, foot.1 - height(largest) - 7.0))?;
             }
         }
-        self.draw_scale(area, scale)?;
-        self.draw_largest(area, letter)
+        self.draw_scale(area, scale, places)?;
+        self.draw_largest(area, letter, places.list)
     }
 
-    /// Draws the scale of the bars.
-    fn draw_scale(&self, area: &Area, scale: &Axis) -> Result<(), DrawingError> {
-        let foot = PLAN[1].0 + 20.0;
+    /// Draws the scale of the bars, and the extent of the plan.
+    fn draw_scale(&self, area: &Area, scale: &Axis, places: &Places) -> Result<(), DrawingError> {
+        let (x, foot) = places.scale;
         let height = |t: f64| foot - LONGEST * t / scale.range.end;
-        Pen::solid(BLACK, 0.8)
-            .draw(area, vec![pixel((SCALE, foot)), pixel((SCALE, height(scale.range.end)))])?;
+        Pen::solid(BLACK, 0.8).draw(area, vec![pixel((x, foot)), pixel((x, height(scale.range.end)))])?;
         for (tick, name) in &scale.ticks {
             Pen::solid(BLACK, 0.8)
-                .draw(area, vec![pixel((SCALE - 4.0, height(*tick))), pixel((SCALE, height(*tick)))])?;
+                .draw(area, vec![pixel((x - 4.0, height(*tick))), pixel((x, height(*tick)))])?;
             let end = style::font(SMALL).pos(Pos::new(HPos::Right, VPos::Center));
-            area.draw_text(name, &end, pixel((SCALE - 7.0, height(*tick))))?;
+            area.draw_text(name, &end, pixel((x - 7.0, height(*tick))))?;
         }
-        centred(area, "t [-]", (SCALE, foot + 10.0))?;
+        centred(area, "t [-]", (x, foot + 10.0))?;
         let bounds = |axis: usize| {
             let Range { start, end } = extent(self.positions.iter().map(|position| position[axis]));
             [start, end].map(|end| number(end, 2)).join(" to ")
         };
         for (line, axis) in ["x", "y"].iter().enumerate() {
-            let position = (LIST - 72.0, PLAN[1].1 - 22.0 + 15.0 * line as f64);
+            let position = (places.extent.0, places.extent.1 + LINE * line as f64);
             text(area, &format!("plan: {axis} from {} m", bounds(line)), SMALL, position)?;
         }
         Ok(())
     }
 
     /// Lists the coordinates with the largest index.
-    fn draw_largest(&self, area: &Area, letter: char) -> Result<(), DrawingError> {
+    fn draw_largest(&self, area: &Area, letter: char, list: (f64, f64)) -> Result<(), DrawingError> {
         let mut effects = self.effects.clone();
         effects.sort_by(|one, other| other.t.total_cmp(&one.t));
-        let top = PLAN[1].0 + 20.0 - LONGEST;
-        text(area, "largest", SMALL, (LIST, top))?;
+        let (left, top) = list;
+        text(area, "largest", SMALL, (left, top))?;
         for (row, &Effect { point, coordinate, t }) in effects.iter().take(LISTED).enumerate() {
-            let y = top + 15.0 * (row + 1) as f64;
+            let y = top + LINE * (row + 1) as f64;
             let name = format!("{letter}{} {}", point + 1, COORDINATES[coordinate].0);
-            text(area, &name, SMALL, (LIST, y))?;
+            text(area, &name, SMALL, (left, y))?;
             let end = style::font(SMALL).pos(Pos::new(HPos::Right, VPos::Center));
-            area.draw_text(&number(t, 2), &end, pixel((LIST + 84.0, y)))?;
+            area.draw_text(&number(t, 2), &end, pixel((left + LIST, y)))?;
         }
         Ok(())
     }
@@ -247,22 +295,24 @@ impl Panel {
 struct Plan {
     scale: f64,
     middle: [f64; 2],
+    /// [`Places::plan`].
+    ranges: [(f64, f64); 2],
 }
 
 impl Plan {
-    fn new(positions: &[[f64; 2]], center: [f64; 2]) -> Self {
+    fn new(positions: &[[f64; 2]], center: [f64; 2], ranges: [(f64, f64); 2]) -> Self {
         let [x, y] =
             [0, 1].map(|axis| extent(positions.iter().chain([&center]).map(|position| position[axis])));
         let room = |axis: usize, range: &Range<f64>| {
-            (PLAN[axis].1 - PLAN[axis].0) / (range.end - range.start).max(1e-9)
+            (ranges[axis].1 - ranges[axis].0) / (range.end - range.start).max(1e-9)
         };
         // The factor leaves room for the bars of points at the left and right edge.
         let scale = (0.8 * room(0, &x)).min(room(1, &y));
-        Self { scale, middle: [x, y].map(|range| 0.5 * (range.start + range.end)) }
+        Self { scale, middle: [x, y].map(|range| 0.5 * (range.start + range.end)), ranges }
     }
 
     fn pixels(&self, [x, y]: [f64; 2]) -> (f64, f64) {
-        let middle = PLAN.map(|(low, high)| 0.5 * (low + high));
+        let middle = self.ranges.map(|(low, high)| 0.5 * (low + high));
         (middle[0] + self.scale * (x - self.middle[0]), middle[1] - self.scale * (y - self.middle[1]))
     }
 
@@ -280,7 +330,8 @@ impl Plan {
 
     /// Feet of the bars of each point: at its position, or in a row with points whose bars would cover them.
     fn feet(&self, positions: &[[f64; 2]]) -> Vec<(f64, f64)> {
-        let step = ROOM.0.min((PLAN[0].1 - PLAN[0].0) / positions.len() as f64);
+        let (first, last) = self.ranges[0];
+        let step = ROOM.0.min((last - first) / positions.len() as f64);
         let mut rows: Vec<Vec<usize>> = (0..positions.len()).map(|point| vec![point]).collect();
         let middle = |row: &[usize]| {
             let sum = row
@@ -309,7 +360,7 @@ impl Plan {
             });
             let half = 0.5 * step * row.len() as f64;
             let (x, y) = middle(row);
-            let left = x.clamp(PLAN[0].0 - 10.0 + half, PLAN[0].1 + 10.0 - half) - half;
+            let left = x.clamp(first - 10.0 + half, last + 10.0 - half) - half;
             for (k, point) in row.iter().enumerate() {
                 feet[*point] = (left + step * (k as f64 + 0.5), y);
             }

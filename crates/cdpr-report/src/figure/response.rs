@@ -2,6 +2,7 @@
 
 use crate::drawing::axis::{Axis, Grid, chart, extent};
 use crate::drawing::heading::Heading;
+use crate::drawing::sheet::Sheet;
 use crate::drawing::style::{self, BLUE, GREEN, HEIGHT, ORANGE, Pen, VERMILLION};
 use crate::error::ReportError;
 
@@ -30,7 +31,7 @@ pub struct Amplitudes<'a> {
 /// # Errors
 /// [`ReportError::Empty`] without points, [`ReportError::Invalid`] for a point that is not finite or for more
 /// than four curves.
-pub fn amplitudes(given: &Amplitudes) -> Result<String, ReportError> {
+pub fn amplitudes(given: &Amplitudes, sheet: Sheet) -> Result<String, ReportError> {
     if given.curves.len() > PENS.len() {
         return Err(ReportError::invalid("curves", &given.curves.len(), "4 curves at most"));
     }
@@ -52,11 +53,11 @@ pub fn amplitudes(given: &Amplitudes) -> Result<String, ReportError> {
     let (first, last) = (range.start.floor() as i32, range.end.ceil() as i32);
     let last = last.max(first + 1);
     let ticks = (first..=last).map(|power| (f64::from(power), format!("1e{power}"))).collect();
-    let y = Axis { range: f64::from(first)..f64::from(last), ticks, label: given.y.to_owned() };
+    let y = Axis::given(f64::from(first)..f64::from(last), ticks, given.y);
     let key: Vec<_> = given.curves.iter().zip(PENS).map(|((name, _), pen)| (name.clone(), pen)).collect();
     let heading = Heading { title: given.title, lines: given.lines, key: &key };
-    style::figure(HEIGHT, |area| {
-        let chart = chart(&heading.draw(area)?, &x, &y, Grid::Horizontal)?;
+    style::figure([sheet.width(), sheet.height(heading.height(sheet), HEIGHT)], |area| {
+        let chart = chart(&heading.draw(sheet, area)?, &x, &y, Grid::Horizontal)?;
         curves.iter().zip(PENS).try_for_each(|(curve, pen)| pen.draw(chart.plotting_area(), curve.clone()))
     })
 }
@@ -72,13 +73,13 @@ mod tests {
         let points = vec![(0.0, 2e-4), (1.0, 0.0), (2.0, 3e-2)];
         let curves = [("worst".to_owned(), points)];
         let given = Amplitudes { title: "shaken", lines: &[], y: "amplitude [mm/N]", curves: &curves };
-        let svg = amplitudes(&given).unwrap();
+        let svg = amplitudes(&given, Sheet::SCREEN).unwrap();
         for text in ["1e-4", "1e-1", "frequency [Hz]", "amplitude [mm/N]", "worst"] {
             assert!(svg.contains(text), "{text}");
         }
         let none = [("worst".to_owned(), vec![(1.0, 0.0)])];
-        assert!(amplitudes(&Amplitudes { curves: &none, ..given.clone() }).is_err());
+        assert!(amplitudes(&Amplitudes { curves: &none, ..given.clone() }, Sheet::SCREEN).is_err());
         let invalid = [("worst".to_owned(), vec![(1.0, f64::INFINITY)])];
-        assert!(amplitudes(&Amplitudes { curves: &invalid, ..given }).is_err());
+        assert!(amplitudes(&Amplitudes { curves: &invalid, ..given }, Sheet::SCREEN).is_err());
     }
 }

@@ -3,6 +3,7 @@
 
 use crate::drawing::axis::{Axis, Grid, chart};
 use crate::drawing::heading::Heading;
+use crate::drawing::sheet::Sheet;
 use crate::drawing::style::{self, BLUE, GREY, HEIGHT, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, px};
 use crate::error::ReportError;
 use crate::text::number;
@@ -73,9 +74,10 @@ pub fn found_poses(result: &RobustnessResult) -> Result<String, ReportError> {
         .filter(|(outcome, ..)| count(*outcome) > 0)
         .map(|(_, name, color)| ((*name).to_owned(), Pen::bar(*color)))
         .collect();
+    let sheet = Sheet::SCREEN;
     let heading = Heading { title: result.protocol.title, lines: &lines, key: &key };
-    style::figure(HEIGHT, |area| {
-        let chart = chart(&heading.draw(area)?, &x, &y, Grid::Horizontal)?;
+    style::figure([sheet.width(), sheet.height(heading.height(sheet), HEIGHT)], |area| {
+        let chart = chart(&heading.draw(sheet, area)?, &x, &y, Grid::Horizontal)?;
         let plot = chart.plotting_area();
         for (outcome, _, color) in OUTCOMES {
             let step = if outcome == Outcome::TruePose { every } else { 1 };
@@ -95,7 +97,7 @@ fn decades(range: std::ops::Range<f64>, label: &str) -> Axis {
         .filter(|power| power % step == 0)
         .map(|power| (f64::from(power), format!("1e{}", number(f64::from(power), 0))))
         .collect();
-    Axis { range, ticks, label: label.to_owned() }
+    Axis::given(range, ticks, label)
 }
 
 /// Draws the share of starts that lead to the true pose, over the grid of start distances and angles.
@@ -132,10 +134,11 @@ pub fn success_share(summary: &ProtocolSummary) -> Result<String, ReportError> {
             number(100.0 * darkest, 2)
         ),
     ];
+    let sheet = Sheet::SCREEN;
     let heading = Heading { title: &summary.title, lines: &lines, key: &[] };
-    let height = heading.height() + ROW * angles.len() as f64 + X_AXIS + MARGIN + 4.0;
-    style::figure(height, |area| {
-        let chart = chart(&heading.draw(area)?, &x, &y, Grid::None)?;
+    let height = heading.height(sheet) + ROW * angles.len() as f64 + X_AXIS + MARGIN + 4.0;
+    style::figure([sheet.width(), height], |area| {
+        let chart = chart(&heading.draw(sheet, area)?, &x, &y, Grid::None)?;
         let plot = chart.plotting_area();
         for (distance, angle, row) in &cells {
             let index =

@@ -2,6 +2,7 @@
 
 use crate::drawing::axis::{Axis, Grid, chart};
 use crate::drawing::heading::Heading;
+use crate::drawing::sheet::Sheet;
 use crate::drawing::style::{self, BLUE, GREEN, GREY, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, px};
 use crate::error::ReportError;
 use crate::text::number;
@@ -34,7 +35,7 @@ const LEAST: f64 = 1e-4;
 /// # Errors
 /// [`ReportError::Empty`] for a study without such measures or if `most` is zero, [`ReportError::Invalid`]
 /// for a share that is not finite.
-pub fn shares(summary: &SamplingSummary, most: usize) -> Result<String, ReportError> {
+pub fn shares(summary: &SamplingSummary, most: usize, sheet: Sheet) -> Result<String, ReportError> {
     let Some(sensitivity) = &summary.sensitivity else {
         return Err(ReportError::Empty { what: "sensitivity" });
     };
@@ -64,17 +65,20 @@ pub fn shares(summary: &SamplingSummary, most: usize) -> Result<String, ReportEr
         }
     }
     let ticks = [0.0001, 0.001, 0.01, 0.1, 1.0].map(|share: f64| (share.log10(), percent(share))).to_vec();
-    let label = format!("share of the variance of the {} [%]", summary.output.label());
+    let label = match sheet.is_narrow() {
+        true => "share of the variance [%]".to_owned(),
+        false => format!("share of the variance of the {} [%]", summary.output.label()),
+    };
     let rightmost = dots.iter().map(|(.., share)| share[2]).fold(0.0, f64::max);
-    let x = Axis { range: LEAST.log10()..rightmost + 0.1, ticks, label };
+    let x = Axis::given(LEAST.log10()..rightmost + 0.1, ticks, label);
     let y = Axis::names(inputs.iter().map(|input| input.input.clone()), "");
     let key: Vec<_> =
         lines.iter().map(|(measure, color)| (measure.label.to_owned(), Pen::bar(*color))).collect();
     let heading =
         Heading { title: &summary.title, lines: &subtitle(summary, sensitivity, inputs.len()), key: &key };
-    let height = heading.height() + ROW * inputs.len() as f64 + X_AXIS + MARGIN + 4.0;
-    style::figure(height, |area| {
-        let chart = chart(&heading.draw(area)?, &x, &y, Grid::Vertical)?;
+    let height = heading.height(sheet) + ROW * inputs.len() as f64 + X_AXIS + MARGIN + 4.0;
+    style::figure([sheet.width(), height], |area| {
+        let chart = chart(&heading.draw(sheet, area)?, &x, &y, Grid::Vertical)?;
         let plot = chart.plotting_area();
         for row in 1..inputs.len() {
             let between = row as f64 + 0.5;

@@ -2,6 +2,7 @@
 
 use crate::drawing::axis::{Axis, Grid, chart};
 use crate::drawing::heading::Heading;
+use crate::drawing::sheet::Sheet;
 use crate::drawing::style::{self, BLUE, GREY, MARGIN, Pen, X_AXIS};
 use crate::error::ReportError;
 use cdpr_study::{SamplingSummary, SignedEffect};
@@ -20,7 +21,7 @@ const CAP: f64 = 0.3;
 /// # Errors
 /// [`ReportError::Empty`] for a study without replicates or if `most` is zero, [`ReportError::Invalid`] for a
 /// value that is not finite.
-pub fn signed_effects(summary: &SamplingSummary, most: usize) -> Result<String, ReportError> {
+pub fn signed_effects(summary: &SamplingSummary, most: usize, sheet: Sheet) -> Result<String, ReportError> {
     let mut effects: Vec<(&String, &SignedEffect)> = summary.signed_effects.iter().collect();
     let output = summary.output;
     let field = output.named("signed_effects_mm");
@@ -40,7 +41,11 @@ pub fn signed_effects(summary: &SamplingSummary, most: usize) -> Result<String, 
     let ends = || effects.iter().flat_map(|(_, effect)| [effect.effect, effect.low, effect.high]);
     let (low, high) = (ends().fold(0.0, f64::min), ends().fold(0.0, f64::max));
     let margin = 0.05 * (high - low);
-    let x = Axis::numbers(low - margin..high + margin, 9, format!("signed effect on the {}", output.axis()));
+    let label = match sheet.is_narrow() {
+        true => format!("signed effect [{}]", output.unit()),
+        false => format!("signed effect on the {}", output.axis()),
+    };
+    let x = Axis::numbers(low - margin..high + margin, 9, label);
     let y = Axis::names(effects.iter().map(|(name, _)| (*name).clone()), "");
     let unclear = effects.iter().any(|(_, effect)| contains_zero(effect));
     let key = [("effect".to_owned(), Pen::bar(BLUE)), ("interval contains zero".to_owned(), Pen::bar(GREY))];
@@ -62,9 +67,9 @@ pub fn signed_effects(summary: &SamplingSummary, most: usize) -> Result<String, 
         ],
         key: if unclear { &key } else { &[] },
     };
-    let height = heading.height() + ROW * effects.len() as f64 + X_AXIS + MARGIN + 4.0;
-    style::figure(height, |area| {
-        let chart = chart(&heading.draw(area)?, &x, &y, Grid::Vertical)?;
+    let height = heading.height(sheet) + ROW * effects.len() as f64 + X_AXIS + MARGIN + 4.0;
+    style::figure([sheet.width(), height], |area| {
+        let chart = chart(&heading.draw(sheet, area)?, &x, &y, Grid::Vertical)?;
         let plot = chart.plotting_area();
         for (row, &(_, interval)) in effects.iter().enumerate() {
             let y = (row + 1) as f64;

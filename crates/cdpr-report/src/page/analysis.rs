@@ -6,7 +6,7 @@ use crate::page::analysis::drawings::{cobweb, scatter};
 use crate::page::elements::{Document, Section, cell, numeric, table};
 use crate::text;
 use cdpr_robot::{counted, shown};
-use cdpr_sensitivity::{LeadingInputs, LevelMean, WassersteinBures};
+use cdpr_sensitivity::{Estimate, LeadingInputs, LevelMean, WassersteinBures, is_resolved};
 use cdpr_study::{Analysis, Dependence, GivenTable, InputAnalysis, TableAnalysis, VectorAnalysis};
 use maud::{Markup, html};
 
@@ -67,7 +67,7 @@ fn of_output(table: &GivenTable, name: &str, analysis: &Analysis) -> Markup {
         (measures(analysis))
         @if analysis.limit.is_some() { (at_limit(analysis)) }
         @for note in &analysis.notes { p.note { (note) "." } }
-        @let drawn = leading(analysis).into_iter().take(DRAWN).collect::<Vec<_>>();
+        @let drawn = LeadingInputs::order(analysis).into_iter().take(DRAWN).collect::<Vec<_>>();
         @if let Some(y) = column(table, name) {
             @for input in &drawn {
                 @if let Some(x) = column(table, &input.input) { (scatter(&input.input, x, name, y, analysis)) }
@@ -81,14 +81,6 @@ fn of_output(table: &GivenTable, name: &str, analysis: &Analysis) -> Markup {
 
 fn column<'a>(table: &'a GivenTable, name: &str) -> Option<&'a [f64]> {
     table.columns.iter().find(|column| column.name == name).map(|column| column.values.as_slice())
-}
-
-/// Inputs by their dependence, the strongest first.
-fn leading(analysis: &Analysis) -> Vec<&InputAnalysis> {
-    let mut inputs: Vec<&InputAnalysis> = analysis.inputs.iter().collect();
-    let strength = |input: &InputAnalysis| input.dependence.map_or(0.0, |dependence| dependence.r_squared);
-    inputs.sort_by(|one, other| strength(other).total_cmp(&strength(one)));
-    inputs
 }
 
 fn summary(name: &str, analysis: &Analysis) -> Markup {
@@ -132,8 +124,10 @@ fn verdict(analysis: &Analysis) -> Markup {
 
 fn of_vector(vector: &VectorAnalysis) -> Markup {
     let row = |(input, of): (&String, &WassersteinBures)| -> Vec<Markup> {
-        let numbers = [of.index.value, of.index.low, of.index.high, of.means.value];
-        [cell(input)].into_iter().chain(numbers.map(|value| numeric(value, 3))).collect()
+        let known = |of: &Estimate| is_resolved(of.value, [of.low, of.high]);
+        let index = if known(&of.index) { numeric(of.index.value, 3) } else { cell("not resolved") };
+        let means = if known(&of.means) { numeric(of.means.value, 3) } else { cell("not resolved") };
+        vec![cell(input), index, numeric(of.index.low, 3), numeric(of.index.high, 3), means]
     };
     let rows: Vec<_> = vector.bures.iter().map(row).collect();
     let head = ["input", "Wasserstein-Bures", "from", "to", "of which by the means"];
@@ -151,7 +145,7 @@ fn measures(analysis: &Analysis) -> Markup {
         "t",
         "SRC",
         "SRRC",
-        "S by ranks",
+        "S by ranks [%]",
         "S, expansion",
         "T, expansion",
         "HSIC R\u{b2}",
@@ -162,10 +156,6 @@ fn measures(analysis: &Analysis) -> Markup {
         "at least",
         "noise",
     ];
-    let estimate = |estimate: Option<cdpr_study::Estimate>| match estimate {
-        Some(of) => html! { (numeric(of.value, 3)) " \u{b1} " (numeric(0.5 * of.width(), 2)) },
-        None => numeric(None, 3),
-    };
     let row = |input: &&InputAnalysis| {
         vec![
             cell(&input.input),
@@ -173,7 +163,7 @@ fn measures(analysis: &Analysis) -> Markup {
             numeric(input.half.map(|half| half.student), 3),
             numeric(input.standardized, 3),
             numeric(input.rank_standardized, 3),
-            estimate(input.first),
+            input.first.map_or_else(|| numeric(None, 3), |first| cell(first.percent())),
             numeric(input.shares.map(|shares| shares.closed), 3),
             numeric(input.shares.map(|shares| shares.total), 3),
             numeric(input.dependence.map(|dependence| dependence.r_squared), 3),
@@ -185,7 +175,7 @@ fn measures(analysis: &Analysis) -> Markup {
             numeric(input.delta.map(|delta| delta.noise), 2),
         ]
     };
-    let rows: Vec<Vec<Markup>> = leading(analysis).iter().map(row).collect();
+    let rows: Vec<Vec<Markup>> = LeadingInputs::order(analysis).iter().map(row).collect();
     let percent = |share: f64| text::digits(100.0 * share, 3);
     html! {
         (table("Measures of each input", &head, &rows))

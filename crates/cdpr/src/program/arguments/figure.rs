@@ -3,7 +3,7 @@
 use crate::program::arguments::endings::check_place;
 use crate::program::arguments::{Overwrite, number};
 use crate::program::error::ProgramError;
-use cdpr_report::{FIGURE_WIDTHS_MM, FigureFile, FigureFormat, figure_file};
+use cdpr_report::{FIGURE_WIDTHS_MM, FigureFile, FigureFormat, Sheet, figure_file};
 use std::path::PathBuf;
 
 /// A file for a figure.
@@ -19,22 +19,34 @@ impl FigureArgument {
         self.path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default()
     }
 
-    /// Writes a figure that is drawn as SVG.
-    pub(crate) fn write(&self, overwrite: &Overwrite, svg: &str) -> Result<(), ProgramError> {
-        overwrite.write(&self.path, figure_file(svg, self.file)?)
+    /// Writes a figure that `draw` draws as SVG, for the width that is asked for.
+    pub(crate) fn write(
+        &self,
+        overwrite: &Overwrite,
+        draw: impl FnOnce(Sheet) -> Result<String, ProgramError>,
+    ) -> Result<(), ProgramError> {
+        overwrite.write(&self.path, figure_file(&draw(self.file.sheet())?, self.file)?)
     }
 }
 
-/// Writes those figures whose names are asked for.
+/// Writes those figures whose names are asked for. `draw` draws all of them for a sheet.
 pub(crate) fn write_figures(
     asked: &[FigureArgument],
-    drawn: &[(String, String)],
+    draw: impl Fn(Sheet) -> Vec<(String, String)>,
     overwrite: &Overwrite,
 ) -> Result<(), ProgramError> {
+    let mut sheets: Vec<(Sheet, Vec<(String, String)>)> = Vec::new();
+    for sheet in asked.iter().map(|file| file.file.sheet()) {
+        if sheets.iter().all(|(known, _)| *known != sheet) {
+            sheets.push((sheet, draw(sheet)));
+        }
+    }
     let find = |file: &FigureArgument| {
-        let found = drawn.iter().find(|(name, _)| name == file.stem()).map(|(_, svg)| svg.as_str());
+        let sheet = file.file.sheet();
+        let drawn = sheets.iter().filter(|(of, _)| *of == sheet).flat_map(|(_, drawn)| drawn);
+        let found = drawn.clone().find(|(name, _)| name == file.stem()).map(|(_, svg)| svg.clone());
         found.ok_or_else(|| {
-            let names: Vec<&str> = drawn.iter().map(|(name, _)| name.as_str()).collect();
+            let names: Vec<&str> = drawn.map(|(name, _)| name.as_str()).collect();
             ProgramError::Usage(format!(
                 "--figure {}: expected the name of a figure of the results: {}",
                 file.path.display(),
@@ -43,7 +55,7 @@ pub(crate) fn write_figures(
         })
     };
     let found = asked.iter().map(find).collect::<Result<Vec<_>, _>>()?;
-    asked.iter().zip(found).try_for_each(|(file, svg)| file.write(overwrite, svg))
+    asked.iter().zip(found).try_for_each(|(file, svg)| file.write(overwrite, |_| Ok(svg)))
 }
 
 /// A name that ends in .svg, .pdf or .png, then settings with commas before them.

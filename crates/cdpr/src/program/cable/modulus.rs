@@ -6,7 +6,7 @@ use crate::program::error::ProgramError;
 use crate::program::output::{patiently, print_sentence, table};
 use crate::program::questions;
 use cdpr_cable::{Phase, Record, SecantModulus, Specimen};
-use cdpr_report::{Cycle, CycleBranch, cycle};
+use cdpr_report::{Cycle, CycleBranch, Sheet, cycle};
 use cdpr_robot::plausible;
 use cdpr_study::{CableLaw, law_json, open_record};
 use serde::Serialize;
@@ -118,7 +118,9 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     if let Some(path) = &settings.law {
         write_law(&record, &specimen, settings, path)?;
     }
-    let write = |file: &FigureArgument| file.write(&settings.printing.overwrite, &draw(&record, &found)?);
+    let write = |file: &FigureArgument| {
+        file.write(&settings.printing.overwrite, |sheet| draw(&record, &found, sheet))
+    };
     settings.figure.as_ref().map_or(Ok(()), write)
 }
 
@@ -161,16 +163,17 @@ fn write_law(
     settings.printing.overwrite.write(path, &(law_json(Some(source), law)? + "\n"))
 }
 
-fn draw(record: &Record, found: &Found) -> Result<String, ProgramError> {
+fn draw(record: &Record, found: &Found, sheet: Sheet) -> Result<String, ProgramError> {
     let branches = [Phase::Loading, Phase::Unloading].map(|phase| {
         let points = record.samples(phase).iter().map(|sample| (1e3 * sample.elongation, sample.force));
         CycleBranch { name: phase.name().to_owned(), points: points.collect() }
     });
-    Ok(cycle(&Cycle {
+    let drawn = Cycle {
         title: "Load over elongation",
         lines: &[format!("the loop dissipates {:.4} J", found.dissipated_energy_j)],
         x: "elongation [mm]",
         y: "force [N]",
         branches: &branches,
-    })?)
+    };
+    Ok(cycle(&drawn, sheet)?)
 }

@@ -10,7 +10,7 @@ use crate::program::error::ProgramError;
 use crate::program::output::{Ending, patiently, print_sentence, table};
 use crate::program::pose::at_pose::print_fall;
 use crate::program::questions;
-use cdpr_report::{Cycle, CycleBranch, cycle};
+use cdpr_report::{Cycle, CycleBranch, Sheet, cycle};
 use cdpr_robot::{Robot, Vector3, decimals_of, rounded, shown, visible};
 use cdpr_statics::hysteresis::{
     CycleStep, HysteresisLaw, LoadCycle, PulleyFriction, PulleyState, Unloading, load_cycle_over_pulleys,
@@ -138,7 +138,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         );
     }
     if let Some(file) = &settings.figure {
-        file.write(&settings.printing.overwrite, &draw(&robot, &cycle, &found)?)?;
+        file.write(&settings.printing.overwrite, |sheet| draw(&robot, &cycle, &found, sheet))?;
     }
     Ok(OutOfLimits::ending(&found.out_of_limits))
 }
@@ -356,7 +356,7 @@ fn millijoules(energy: f64) -> String {
 /// Decimals of millimetres and millijoules, beyond which there is rounding alone.
 const ROUNDING: i32 = 9;
 
-fn draw(robot: &Robot, ran: &LoadCycle, found: &Found) -> Result<String, ProgramError> {
+fn draw(robot: &Robot, ran: &LoadCycle, found: &Found, sheet: Sheet) -> Result<String, ProgramError> {
     let begin = ran.loading.first().map_or(0.0, |step| step.solution.equilibrium.pose.position.z);
     let points = |way: &[CycleStep]| {
         let at = |step: &CycleStep| (1e3 * (begin - step.solution.equilibrium.pose.position.z), step.payload);
@@ -366,7 +366,7 @@ fn draw(robot: &Robot, ran: &LoadCycle, found: &Found) -> Result<String, Program
         CycleBranch { name: "payload put on".to_owned(), points: points(&ran.loading) },
         CycleBranch { name: "payload taken off".to_owned(), points: points(&ran.unloading) },
     ];
-    Ok(cycle(&Cycle {
+    let drawn = Cycle {
         title: &format!("{}: payload over the way down", robot.name),
         lines: &[format!(
             "{} mm stay; {} mJ given by the payload",
@@ -376,5 +376,6 @@ fn draw(robot: &Robot, ran: &LoadCycle, found: &Found) -> Result<String, Program
         x: "way down [mm]",
         y: "payload [kg]",
         branches: &branches,
-    })?)
+    };
+    Ok(cycle(&drawn, sheet)?)
 }

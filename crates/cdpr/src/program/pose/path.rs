@@ -68,7 +68,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     };
     missing_frequencies(&robot).iter().for_each(|why| note(format_args!("{why}")));
     if let Some(file) = figure {
-        file.write(&at.printing.overwrite, &path_view(&robot, &load, &passed)?)?;
+        file.write(&at.printing.overwrite, |sheet| Ok(path_view(&robot, &load, &passed, sheet)?))?;
     }
     Ok(ending)
 }

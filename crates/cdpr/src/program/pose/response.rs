@@ -10,7 +10,7 @@ use crate::program::output::{Ending, print_sentence, table};
 use crate::program::pose::at_pose::{Brief, RobotAtPose, Row};
 use crate::program::pose::modes::with_inertia;
 use cdpr_dynamics::{Damping, FrequencyResponse, Modes, PointMotion, ShakenPoint, Wanted, worst_amplitude};
-use cdpr_report::{Amplitudes, amplitudes};
+use cdpr_report::{Amplitudes, Sheet, amplitudes};
 use cdpr_robot::{Pose, Robot, Vector3, shown, significant};
 use cdpr_statics::{DirectProblem, DirectStart, StaticsError, Unstable, WantedPose, inverse};
 use serde::Serialize;
@@ -65,7 +65,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     };
     let answer = settings.solve(&robot, &pose, damping)?;
     if let Some(file) = figure {
-        file.write(&at.printing.overwrite, &answer.figure(&robot)?)?;
+        file.write(&at.printing.overwrite, |sheet| answer.figure(&robot, sheet))?;
     }
     if is_table {
         answer.print_table();
@@ -268,7 +268,7 @@ impl Answer {
         }
     }
 
-    fn figure(&self, robot: &Robot) -> Result<String, ProgramError> {
+    fn figure(&self, robot: &Robot, sheet: Sheet) -> Result<String, ProgramError> {
         let curve = |name: &str, of: &dyn Fn(&At) -> f64| {
             let points = self.frequencies.iter().map(|at| (at.frequency_hz, 1e3 * of(at)));
             let points = points.filter(|(_, amplitude)| amplitude.is_finite()).collect();
@@ -284,7 +284,7 @@ impl Answer {
         let lines =
             [format!("damping of the cables: stretch {} s, drag {} 1/s", self.damping_s, self.drag_per_s)];
         let given = Amplitudes { title: &title, lines: &lines, y: "amplitude [mm/N]", curves: &curves };
-        Ok(amplitudes(&given)?)
+        Ok(amplitudes(&given, sheet)?)
     }
 }
 

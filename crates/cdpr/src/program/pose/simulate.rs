@@ -17,7 +17,7 @@ use cdpr_dynamics::simulate::{
     Change, Discretization, Event, Sample, Series, Settings as Timing, WinchLengths, events_from_json,
     simulate,
 };
-use cdpr_report::{Quantity, over_time};
+use cdpr_report::{Quantity, Sheet, over_time};
 use cdpr_robot::{Pose, Robot, rounded, shown};
 use cdpr_statics::{DirectProblem, DirectStart, WantedPose, inverse, rough_pose};
 use cdpr_study::{InputKind, read_text};
@@ -121,7 +121,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let answer = Answer::new(&robot, &rest.pose, (&lengths, &events), &series);
     series.samples = series.samples.into_iter().step_by(finer as usize).collect();
     if let Some(file) = &settings.figure {
-        file.write(&settings.printing.overwrite, &figure(&robot, &rest.pose, &series)?)?;
+        file.write(&settings.printing.overwrite, |sheet| figure(&robot, &rest.pose, &series, sheet))?;
     }
     let records = series.samples.iter().map(|sample| record(&rest.pose, sample)).collect();
     let text = || answer.print(&shown(&robot.name), &rest.pose, settings.until);
@@ -183,7 +183,7 @@ fn record(rest: &Pose, sample: &Sample) -> Vec<f64> {
 }
 
 /// Motion of P and turn from the rest, and tensions at the platform, over the time.
-fn figure(robot: &Robot, rest: &Pose, series: &Series) -> Result<String, ProgramError> {
+fn figure(robot: &Robot, rest: &Pose, series: &Series, sheet: Sheet) -> Result<String, ProgramError> {
     let curve = |name: String, of: &dyn Fn(&Sample) -> f64| {
         (name, series.samples.iter().map(|sample| (sample.time, of(sample))).collect())
     };
@@ -205,7 +205,7 @@ fn figure(robot: &Robot, rest: &Pose, series: &Series) -> Result<String, Program
     let title = format!("Motion of {}", shown(&robot.name));
     let [x, y, z] = <[f64; 3]>::from(rest.position).map(|value| rounded(value, 4));
     let lines = [format!("from rest at ({x}, {y}, {z}) m")];
-    Ok(over_time(&title, &lines, &quantities)?)
+    Ok(over_time(&title, &lines, &quantities, sheet)?)
 }
 
 #[derive(Serialize)]

@@ -20,7 +20,7 @@ use cdpr_assess::{
     Workspace, WorkspaceSummary, begin_workspace, compute_workspace, workspace_boundary, write_workspace,
 };
 use cdpr_dynamics::Damping;
-use cdpr_report::{MapQuantity, layers, workspace_maps};
+use cdpr_report::{MapQuantity, Sheet, layers, workspace_maps};
 use cdpr_robot::{Axis, Robot, Rotation3, counted, listing, shown, significant};
 use cdpr_study::{Extremes, Grid};
 use std::path::PathBuf;
@@ -228,10 +228,14 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         summary.boundary = Some(BoundarySummary::new(way, &found));
         boundary = Some(found);
     }
-    let maps = workspace_maps(&robot, &summary, wanted.layers).into_iter();
+    let drawn_for = |sheet: Sheet| workspace_maps(&robot, &summary, boundary.as_ref(), wanted.layers, sheet);
+    let maps = drawn_for(Sheet::SCREEN).into_iter();
     let maps: Vec<_> = maps.filter_map(|map| drawn(&map.name, map.svg)).collect();
     write_workspace(&folder, &summary, &maps, boundary.as_ref())?;
-    write_figures(&settings.figure, &maps, &settings.overwrite)?;
+    let of_sheet = |sheet: Sheet| -> Vec<_> {
+        drawn_for(sheet).into_iter().filter_map(|map| Some((map.name, map.svg.ok()?))).collect()
+    };
+    write_figures(&settings.figure, of_sheet, &settings.overwrite)?;
     settings.format.print(&summary, |summary| {
         print(summary);
         missing_frequencies(&robot).iter().for_each(|why| print_sentence(why));

@@ -5,7 +5,7 @@ use crate::program::arguments::{FigureArgument, Format, Overwrite, figure, write
 use crate::program::error::ProgramError;
 use crate::program::output::patiently;
 use cdpr_assess::read_region;
-use cdpr_report::{figures, report_with};
+use cdpr_report::{Sheet, figures, report_with};
 use cdpr_study::Results;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -35,10 +35,12 @@ pub(crate) struct Settings {
 pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let Settings { folder, out, figure, overwrite, workspace, format } = settings;
     if !figure.is_empty() {
-        let drawn = figures(&Results::read(folder)?);
-        let drawn: Vec<_> =
-            drawn.into_iter().filter_map(|figure| Some((figure.name, figure.svg.ok()?))).collect();
-        write_figures(figure, &drawn, overwrite)?;
+        let results = Results::read(folder)?;
+        let drawn = |sheet: Sheet| {
+            let all = figures(&results, sheet).into_iter();
+            all.filter_map(|figure| Some((figure.name, figure.svg.ok()?))).collect()
+        };
+        write_figures(figure, drawn, overwrite)?;
         let figures: Vec<_> = figure.iter().map(|figure| figure.path.to_string_lossy()).collect();
         let text = |_: &Value| figures.iter().for_each(|figure| println!("figure in {figure}"));
         return Ok(format.print(&json!({ "figures": figures }), text)?);
@@ -46,7 +48,7 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let (results, page) = patiently("drawing the report", || -> Result<_, ProgramError> {
         let results = Results::read(folder)?;
         let region = workspace.as_deref().map(read_region).transpose()?;
-        let page = report_with(&results, &figures(&results), region.as_ref())?;
+        let page = report_with(&results, &figures(&results, Sheet::SCREEN), region.as_ref())?;
         Ok((results, page))
     })?;
     let path = match out {

@@ -4,7 +4,7 @@ use crate::program::output::{print_sentence, table, wide_table};
 use cdpr_robot::{counted, significant};
 use cdpr_study::{
     Analysis, Dependence, Estimate, InputAnalysis, LeadingInputs, LevelMean, LimitFailures, OutputLimit,
-    TableAnalysis, VectorAnalysis,
+    TableAnalysis, VectorAnalysis, is_resolved,
 };
 
 /// Inputs in a table on the terminal.
@@ -124,7 +124,10 @@ fn print_vector(vector: &VectorAnalysis) {
     let mut leading: Vec<_> = vector.bures.iter().collect();
     leading.sort_by(|one, other| other.1.index.value.total_cmp(&one.1.index.value));
     let mut rows = table(&["input", "Wasserstein-Bures", "of which by the means"]);
-    let cell = |of: &Estimate| format!("{:.3} \u{b1} {:.3}", of.value, 0.5 * of.width());
+    let cell = |of: &Estimate| match is_resolved(of.value, [of.low, of.high]) {
+        true => format!("{:.3} \u{b1} {:.3}", of.value, 0.5 * of.width()),
+        false => "not resolved".to_owned(),
+    };
     for (input, of) in leading.into_iter().take(MOST) {
         rows.add_row([input.clone(), cell(&of.index), cell(&of.means)]);
     }
@@ -185,7 +188,7 @@ fn print_inputs(analysis: &Analysis) {
         "\u{3b4}, at least",
     ];
     let mut rows = wide_table(&header);
-    let leading = leading(analysis, |input| input.dependence.map_or(0.0, |dependence| dependence.r_squared));
+    let leading = LeadingInputs::order(analysis);
     let two = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.2}"));
     let percent = |share: f64| format!("{:.1}", 100.0 * share);
     for input in leading.iter().take(MOST) {

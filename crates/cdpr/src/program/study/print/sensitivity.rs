@@ -1,7 +1,8 @@
 //! The measures of sensitivity of a sampling on the terminal.
 
 use crate::program::output::wide_table;
-use cdpr_study::{MEASURES, Measure, Output, Quantity, SensitivitySummary, is_resolved};
+use cdpr_robot::Parameter;
+use cdpr_study::{InputMeasures, MEASURES, Measure, Output, Quantity, SensitivitySummary, is_resolved};
 
 /// Number of leading inputs in the table.
 const MOST: usize = 10;
@@ -46,17 +47,31 @@ fn print_inputs(output: Output, found: &SensitivitySummary) {
         rows.add_row([input.input.clone()].into_iter().chain(measures.iter().map(cell)).chain(ends));
     }
     for (group, sums) in &found.sums {
-        let sum = |measure: &Measure| percent(sums.get(measure.name).copied());
+        let parts = || found.inputs.iter().filter(|input| is_part(&input.input, group));
+        let is_known = |measure: &Measure| {
+            let open = |input: &InputMeasures| {
+                let ends = (measure.interval)(input);
+                ends.zip((measure.value)(input)).is_some_and(|(ends, value)| !is_resolved(value, ends))
+            };
+            !parts().any(open)
+        };
+        let sum = |measure: &Measure| percent(sums.get(measure.name).copied().filter(|_| is_known(measure)));
         rows.add_row([format!("sum of {group}")].into_iter().chain(measures.iter().map(sum)));
     }
     println!("{rows}");
     println!(
-        "not resolved: the interval is wider than the value; signed effect, Morris \u{b5}* and \u{3c3} [{unit}]; \
+        "not resolved: the interval is wider than the value; a sum with such a part is blank; signed effect, Morris \u{b5}* and \u{3c3} [{unit}]; \
          t-Student [-]; all others in % of the variance, \
          first order unless total; DGSM a bound on the total; within: bounds on both sides by derivatives, \
          each with the confidence of the study; vector: of the {}",
         found.vector
     );
+}
+
+/// Whether an input is among those of a sum: `all`, a group of parameters, or what is no parameter.
+fn is_part(input: &str, group: &str) -> bool {
+    let own = input.parse::<Parameter>().ok().map(|parameter| parameter.group());
+    group == "all" || own.map_or_else(|| ["weather", "shared"].contains(&group), |own| own == group)
 }
 
 /// Groups of the study, and how many directions of the inputs matter.
