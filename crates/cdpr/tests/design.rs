@@ -161,9 +161,9 @@ fn a_stiffness_of_a_design_is_also_said_by_the_length_of_the_new_robot() {
     let found: Value = serde_json::from_slice(&found.stdout).unwrap();
     let own = &found["best"]["own_stiffness"];
     std::fs::write(folder.path().join("poses.csv"), "x,y,z\n1.2,0,1\n2.6,0,2\n").unwrap();
-    let place = ["stiffness", "best.json", "--poses", "poses.csv", "--payload", "3", "--force", "10,0,0"];
-    let rows =
-        answered(cdpr_in(folder.path(), &[&place[..], &["--moment", "0,2,0", "--format", "json"]].concat()));
+    let place = ["path", "best.json", "--poses", "poses.csv", "--payload", "3", "--force", "10,0,0"];
+    let place = [&place[..], &["--moment", "0,2,0", "--format", "json"]].concat();
+    let rows = String::from_utf8(cdpr_in(folder.path(), &place).stdout).unwrap();
     let rows = rows.lines().map(|row| serde_json::from_str::<Value>(row).unwrap());
     let least = rows.map(|row| row["least_stiffness"].as_f64().unwrap()).fold(f64::INFINITY, f64::min);
     assert!((own["stiffness"].as_f64().unwrap() / least - 1.0).abs() < 1e-6, "{own} {least}");
