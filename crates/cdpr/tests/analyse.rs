@@ -157,7 +157,8 @@ fn a_report_is_written_over_the_one_in_its_own_folder_on_request_and_over_no_oth
     let page = std::fs::read_to_string(folder.path().join("analysis/report.html")).unwrap();
     assert!(page.contains("<circle") && page.contains("<polyline") && !page.contains("<script"));
     // As on the terminal: no number whose interval is wider, and inputs in the order of the verdict.
-    let measures = page.split("<caption>Measures of each input").nth(1).unwrap().split("</table>").next().unwrap();
+    let measures =
+        page.split("<caption>Measures of each input").nth(1).unwrap().split("</table>").next().unwrap();
     assert!(measures.contains("not resolved") && !measures.contains('\u{b1}'), "{measures}");
     let place = |input: &str| measures.find(&format!(">{input}<")).unwrap();
     assert!(place("x2") < place("x1") && place("x1") < place("x3"), "{measures}");
