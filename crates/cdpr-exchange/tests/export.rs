@@ -88,8 +88,11 @@ fn every_robot_of_the_library_comes_back_from_caspr() {
                 assert!((pulley.axis - was.axis.normalize()).norm() < 1e-15);
             }
             assert_eq!(back.limits(i), robot.limits(i));
-            let (stiffness, was) = (cable.properties.axial_stiffness(), was.properties.axial_stiffness());
-            assert!((stiffness - was).abs() < 1e-12 * was, "{}", library.name);
+            // That of a law is the one at the pose.
+            if was.properties.law.is_none() {
+                let (stiffness, was) = (cable.properties.axial_stiffness(), was.properties.axial_stiffness());
+                assert!((stiffness - was).abs() < 1e-12 * was, "{}", library.name);
+            }
         }
     }
 }

@@ -196,7 +196,8 @@ fn a_note_says_where_the_x_axis_of_maslow_points_unless_it_is_that_of_the_robot(
         turned.cables.iter_mut().filter(|cable| cable.exit_point.z < lowest + 0.5).collect();
     lower.sort_by(|a, b| a.exit_point.x.total_cmp(&b.exit_point.x));
     lower[1].exit_point.z -= 0.08;
-    let along = lower[1].exit_point - lower[0].exit_point;
+    let mut along = lower[1].exit_point - lower[0].exit_point;
+    along.y = 0.0; // Across its plane.
     let said = zero(&turned);
     let (_, axis) = said.split_once("its X axis points along (").unwrap();
     let axis: Vec<f64> = axis.split([',', ')']).filter_map(|word| word.trim().parse().ok()).collect();

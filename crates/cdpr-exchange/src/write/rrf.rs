@@ -1,6 +1,6 @@
 //! RepRapFirmware's kinematics of the Hangprinter: `M669` has the anchors, `M666` the flex of the lines.
 //!
-//! Source: Duet3D/RepRapFirmware 3.5 and later, `src/Movement/Kinematics/HangprinterKinematics.cpp` (pull
+//! Source: Duet3D/RepRapFirmware 3.5.3, `src/Movement/Kinematics/HangprinterKinematics.cpp` (pull
 //! request #606). `M669 K6` has N anchors, A, B, C, D and I [mm]. `M666` has A, the mode of the anchors (0:
 //! none, 1: the last one on top, 2: all on top), U, mechanical advantages, Y, guy wires [mm], W, the mover's
 //! weight [kg], S, the spring constant per unit length, which is EA [N], and I and X, the least and greatest
@@ -41,7 +41,8 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     let mode = mode(&points, pose);
     notes.push(match mode {
         1 => {
-            "the stretch of the lines is that of the firmware's own tensions, with W and S; sag has no place"
+            "the stretch of the lines is that of the firmware's own tensions, with W and S, in its versions 3.5 and \
+             3.6 (later ones may need `M666 F1` for it: see their list of changes); sag has no place"
                 .to_owned()
         }
         _ => {
