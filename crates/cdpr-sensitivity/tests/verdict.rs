@@ -342,8 +342,11 @@ fn rows_of_a_sequence_have_shares_by_a_model_that_explains_them_and_else_a_reaso
     let smooth = of(|x| x[2] + 0.3 * x[5]);
     assert!(smooth.inputs.iter().all(|input| input.first.is_none()));
     let LeadingInputs { rows, captions } = LeadingInputs::of(&smooth);
-    assert_eq!([&rows[0][0], &rows[0][1]], ["x3", "91.7 (expansion)"]);
-    assert_eq!([&rows[1][0], &rows[1][1]], ["x6", "8.3 (expansion)"]);
+    for (row, name, share) in [(&rows[0], "x3", 91.7), (&rows[1], "x6", 8.3)] {
+        let found: f64 = row[1].strip_suffix(" (expansion)").unwrap().parse().unwrap();
+        // Variances of 512 rows are not quite those of the laws.
+        assert!(row[0] == name && (found - share).abs() < 0.15, "{row:?}");
+    }
     assert!(captions[1].starts_with("expansion: by a polynomial model, which leaves 0.0 %"), "{captions:?}");
     let rough = of(|x| (40.0 * x[2]).sin() + x[5]);
     let LeadingInputs { rows, captions } = LeadingInputs::of(&rough);
