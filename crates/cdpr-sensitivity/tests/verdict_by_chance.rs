@@ -213,7 +213,7 @@ fn a_possible_dependence_is_in_the_first_sentence() {
         columns[5] = columns[5].iter().zip(&columns[2]).map(|(own, x3)| own + 0.17 * x3).collect();
         let found = Analyser::new(seed).verdict(&table(columns, y)).unwrap();
         let is = found.related.len() == 1 && found.related[0].reasons == ["may depend on `x6`"];
-        is.then(|| found.sentences)
+        is.then_some(found.sentences)
     });
     let sentences = sentences.unwrap();
     assert!(sentences[0].starts_with("2 of 12 inputs are certain to matter: x2 ("), "{sentences:?}");

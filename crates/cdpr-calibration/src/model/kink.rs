@@ -16,7 +16,7 @@
 use crate::model::compare::Compared;
 use crate::model::read::Observed;
 use crate::model::{Model, RowAt, RowState};
-use cdpr_robot::{CableEnd, Robot};
+use cdpr_robot::{CableEnd, PiecewiseLaw, Robot};
 use nalgebra::{DMatrix, DVector, RowDVector};
 
 /// Width of the tensions at a kink that rounding leaves, over the tension.
@@ -91,7 +91,7 @@ fn multipliers(at: &RowAt, compared: &Compared, own: usize) -> DVector<f64> {
 /// Tension of each kink of the law of a cable [N], and the jump of 1/EA there [1/N].
 fn jumps(robot: &Robot, i: usize) -> Vec<(f64, f64)> {
     let properties = &robot.cables[i].properties;
-    let segments: Vec<_> = properties.law.iter().flat_map(|law| law.segments()).collect();
+    let segments: Vec<_> = properties.law.iter().flat_map(PiecewiseLaw::segments).collect();
     let jump = |pair: &[cdpr_robot::Segment]| {
         let flexibility = |k: usize| 1.0 / (pair[k].ratio * properties.axial_stiffness());
         (pair[1].tension, flexibility(1) - flexibility(0))

@@ -23,6 +23,9 @@ const FRAME: Pen = Pen { color: VERMILLION, width: 1.5, dash: Some(6.0) };
 /// from pure black and white, which a dark page swaps.
 const BOUNDARY: [Pen; 2] = [Pen::solid(RGBColor(254, 254, 254), 3.6), Pen::solid(RGBColor(1, 1, 1), 1.8)];
 
+/// A line through places of the plane [m].
+type Line = Vec<(f64, f64)>;
+
 /// Plane of a grid of positions.
 pub(crate) struct Plane {
     normal: Direction,
@@ -35,7 +38,7 @@ pub(crate) struct Plane {
     /// Indices of its positions in the grid. The second axis runs faster.
     pub(crate) positions: Vec<usize>,
     /// Lines of the boundary [m], and what it is called.
-    boundary: Option<(Vec<Vec<(f64, f64)>>, &'static str)>,
+    boundary: Option<(Vec<Line>, &'static str)>,
 }
 
 /// Content of a map.
@@ -87,7 +90,7 @@ impl Plane {
     pub(crate) fn with_boundary(self, boundary: &Boundary, name: &'static str) -> Self {
         let [u, v] = self.axes.each_ref().map(|(axis, _)| *axis as usize);
         let seen = |point: &Vector3<f64>| (point[u], point[v]);
-        let closed = |polygon: &Vec<Vector3<f64>>| -> Vec<(f64, f64)> {
+        let closed = |polygon: &Vec<Vector3<f64>>| -> Line {
             polygon.iter().chain(polygon.first()).map(seen).collect()
         };
         let polygons = boundary.polygons.iter().map(closed);

@@ -31,7 +31,7 @@ impl LeadingInputs {
     pub fn of(analysis: &Analysis) -> Self {
         let verdict = &analysis.verdict;
         let row = |input: &InputAnalysis| {
-            let share = Share::of(analysis, input).map_or("-".to_owned(), |share| share.cell());
+            let share = Share::of(analysis, input).map_or("-".to_owned(), Share::cell);
             [input.input.clone(), share, found_by(analysis, input).unwrap_or("-".to_owned())]
         };
         let mut captions = vec![format!(
