@@ -79,14 +79,11 @@ fn a_trajectory_plays_and_is_scrubbed_and_its_numbers_follow() {
     paste(&mut page, "x,y,z,t\n0,0,1.75,0\n0,0,2.75,4\n");
     page.wait_for(&format!("({SHOWN}).words.startsWith('121 poses; ')"));
     page.evaluate("document.querySelector('.play').click()");
-    page.wait_for(&format!("({SHOWN}).time > 0.3"));
-    assert_eq!(page.evaluate(SHOWN)["plays"], true);
     // While it plays, what is observed is of the state before, and says so.
-    assert_eq!(page.evaluate("document.querySelector('.charts').classList.contains('stale')"), true);
+    let stale = "document.querySelector('.charts').classList.contains('stale')";
+    page.wait_for(&format!("({SHOWN}).time > 0.3 && ({SHOWN}).plays && {stale}"));
     page.evaluate("document.querySelector('.play').click()");
-    page.wait_for(&format!(
-        "!({SHOWN}).plays && !document.querySelector('.charts').classList.contains('stale')"
-    ));
+    page.wait_for(&format!("!({SHOWN}).plays && !{stale}"));
     let shown = page.evaluate(SHOWN);
     let [z, time] = [&shown["position"][2], &shown["time"]].map(|value| value.as_f64().unwrap());
     assert!((z - 1.75 - 0.25 * time).abs() < 3e-3, "{shown}");
