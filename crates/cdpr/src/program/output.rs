@@ -96,9 +96,19 @@ macro_rules! eprintln {
     ($($text:tt)*) => { $crate::program::output::tell_line(format_args!($($text)*)) };
 }
 
-/// What `eprintln!` expands to.
+/// The bar that is shown, if any.
+static BAR: Mutex<Option<WeakProgressBar>> = Mutex::new(None);
+
+/// What `eprintln!` expands to. A bar of progress makes way for it.
 pub(crate) fn tell_line(line: fmt::Arguments) {
-    let _ = writeln!(io::stderr().lock(), "{}", wrapped(&shown_lines(&line.to_string())));
+    let write = || {
+        let _ = writeln!(io::stderr().lock(), "{}", wrapped(&shown_lines(&line.to_string())));
+    };
+    let bar = BAR.lock().unwrap_or_else(PoisonError::into_inner).as_ref().and_then(WeakProgressBar::upgrade);
+    match bar.filter(|bar| !bar.is_finished()) {
+        Some(bar) => bar.suspend(write),
+        None => write(),
+    }
 }
 
 /// What `println!` expands to.
@@ -284,6 +294,7 @@ pub(crate) fn progress(steps: usize, unit: &str) -> ProgressBar {
     if !io::stderr().is_terminal() {
         log_progress(bar.downgrade(), unit.to_owned());
     }
+    *BAR.lock().unwrap_or_else(PoisonError::into_inner) = Some(bar.downgrade());
     // What follows the last step takes time, too.
     bar.enable_steady_tick(SEEN.step);
     let template =
