@@ -215,7 +215,8 @@ fn statistics(keep: bool, rest: &[String]) -> Outcome {
     let text = text_of(&mut example, &[0])?;
     println!("{text}");
     let name = format!("statistics/{table}");
-    write(&root().join(format!("data/evidence/{name}.md")), &text)?;
+    let shown = format!("```text\n{}\n```\n", text.trim_end());
+    write(&root().join(format!("data/evidence/{name}.md")), &shown)?;
     runs::note([name.as_str()].into_iter())
 }
 
