@@ -183,7 +183,11 @@ fn many_poses_are_a_sentence_and_a_short_table_in_a_terminal_and_all_columns_in_
         for line in seen.lines() {
             // What is behind the bar of progress, which the terminal has cleared.
             let line = line.rsplit('\u{1b}').next().unwrap();
-            let line = ["[1A", "[2K"].iter().find_map(|code| line.strip_prefix(code)).unwrap_or(line);
+            let line = line.strip_prefix("[1A").unwrap_or(line);
+            // A note is behind a bar that is seen already.
+            if line.contains('░') {
+                continue;
+            }
             assert!(line.trim_end().chars().count() <= 80, "{command}: {line}");
         }
         let piped = cdpr_in(folder.path(), &call);

@@ -96,19 +96,9 @@ macro_rules! eprintln {
     ($($text:tt)*) => { $crate::program::output::tell_line(format_args!($($text)*)) };
 }
 
-/// The bar that is shown, if any.
-static BAR: Mutex<Option<WeakProgressBar>> = Mutex::new(None);
-
-/// What `eprintln!` expands to. A bar of progress makes way for it.
+/// What `eprintln!` expands to.
 pub(crate) fn tell_line(line: fmt::Arguments) {
-    let write = || {
-        let _ = writeln!(io::stderr().lock(), "{}", wrapped(&shown_lines(&line.to_string())));
-    };
-    let bar = BAR.lock().unwrap_or_else(PoisonError::into_inner).as_ref().and_then(WeakProgressBar::upgrade);
-    match bar.filter(|bar| !bar.is_finished()) {
-        Some(bar) => bar.suspend(write),
-        None => write(),
-    }
+    let _ = writeln!(io::stderr().lock(), "{}", wrapped(&shown_lines(&line.to_string())));
 }
 
 /// What `println!` expands to.
@@ -294,7 +284,6 @@ pub(crate) fn progress(steps: usize, unit: &str) -> ProgressBar {
     if !io::stderr().is_terminal() {
         log_progress(bar.downgrade(), unit.to_owned());
     }
-    *BAR.lock().unwrap_or_else(PoisonError::into_inner) = Some(bar.downgrade());
     // What follows the last step takes time, too.
     bar.enable_steady_tick(SEEN.step);
     let template =
