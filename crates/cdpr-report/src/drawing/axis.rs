@@ -94,7 +94,8 @@ impl Axis {
         Self::given(0.5..ticks.len() as f64 + 0.5, ticks, label)
     }
 
-    /// The same with so many of its round values that their texts fit below a chart of this width [px].
+    /// The same with as many of its round values as have room for their texts below a chart of this width
+    /// [px].
     fn fitted(&self, width: f64) -> Self {
         let mut fitted = self.clone();
         let Some((most, power)) = self.round else { return fitted };
@@ -116,7 +117,7 @@ impl Axis {
     }
 }
 
-/// At most so many round values with their texts, in units of a power of ten.
+/// At most this number of round values with their texts, in units of a power of ten.
 fn round_ticks(range: &Range<f64>, most: usize, power: i32) -> Vec<(f64, String)> {
     let unit = 10.0_f64.powi(power);
     let values = RangedCoordf64::from(range.start / unit..range.end / unit).key_points(BoldPoints(most));

@@ -90,7 +90,8 @@ impl Sheet {
     }
 }
 
-/// A text broken between words into lines of at most so many characters; a longer word has a line of its own.
+/// A text broken between words into lines of at most this number of characters; a longer word has its own
+/// line.
 pub(crate) fn lines(text: &str, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let words: Vec<&str> = text.split(' ').collect();

@@ -285,7 +285,7 @@ impl<'a> Quantities<'a> {
 
     fn lacking(&self, expected: &str) -> String {
         let names = self.names.join(",");
-        // A known quantity in a unit that is none of those that are known: `x_ft`.
+        // A known quantity in an unknown unit: `x_ft`.
         let unknown = self.names.iter().find_map(|name| {
             let (quantity, unit) = name.split_once('_')?;
             (POSITION.contains(&quantity) && self.get(quantity).is_none()).then_some((name, unit))
