@@ -16,11 +16,13 @@ const SEEN: f64 = 0.01;
 const ORDER: [usize; 3] = [0, 1, 2];
 const SIGNS: [f64; 3] = [1.0; 3];
 
-/// A length this share of the robot's size away from the distance of its points is of another row or robot.
+/// A length this share of the robot's size away from that of a straight cable is of another row or robot.
 const ELSEWHERE: f64 = 0.25;
 
-/// Two columns are swapped if this share of the misfit is left after they are swapped back.
+/// Two columns are swapped if this share of the misfit is left after they are swapped back, and if they are off
+/// by more than the other share of the robot's size.
 const LEFT: f64 = 0.2;
+const SWAPPED: f64 = 0.002;
 
 /// Lengths must be positive where winches count from zero.
 ///
@@ -42,8 +44,8 @@ fn cell(row: &Row, cable: usize, length: f64, expected: String) -> CalibrationEr
     CalibrationError::Cell { line: row.line, column, value: length.to_string(), expected }
 }
 
-/// Compares the lengths with the distances of the points at the measured poses, which `pose` says. Sag,
-/// pulleys and the errors that are sought change these by far less than swapped columns.
+/// Compares the lengths with those of straight cables at the measured poses, which `pose` says. Sag, strain
+/// and the errors that are sought change these by far less than swapped columns.
 ///
 /// # Errors
 /// [`CalibrationError::Column`] naming two columns that fit far better the other way round, one that does
@@ -62,7 +64,7 @@ pub(crate) fn check_columns(
     let misfit = placed.mean_misfit(ORDER, SIGNS);
     placed.check_coordinates(misfit)?;
     placed.check_order_of_lengths(misfit)?;
-    placed.check_distances()
+    placed.check_lengths()
 }
 
 /// A row with a measured position and lengths.
@@ -88,9 +90,11 @@ struct PlacedRows<'a> {
 }
 
 impl PlacedRows<'_> {
-    /// Distance of the points of a cable [m] with the platform of a row at a position.
-    fn distance(&self, of: &Placed, position: Vector3<f64>, cable: usize) -> f64 {
-        self.robot.span(&Pose { position, rotation: of.rotation }, cable).norm()
+    /// Length of a straight cable with its lead and arc [m], with the platform of a row at a position.
+    fn straight(&self, of: &Placed, position: Vector3<f64>, cable: usize) -> f64 {
+        let span = self.robot.span(&Pose { position, rotation: of.rotation }, cable);
+        let span = self.robot.gravity.level().map_or(span, |level| level * span);
+        self.robot.cable(cable).straight_length_in_space(span)
     }
 
     /// Misfit of column i with cable j [m], with the coordinates of the position in this order and with these
@@ -98,7 +102,7 @@ impl PlacedRows<'_> {
     fn misfit(&self, [i, j]: [usize; 2], order: [usize; 3], sign: [f64; 3]) -> f64 {
         let square = |of: &Placed| {
             let position = Vector3::from(order.map(|k| sign[k] * of.position[k]));
-            (of.lengths[i] - self.distance(of, position, j)).powi(2)
+            (of.lengths[i] - self.straight(of, position, j)).powi(2)
         };
         (self.rows.iter().map(square).sum::<f64>() / self.rows.len() as f64).sqrt()
     }
@@ -139,18 +143,18 @@ impl PlacedRows<'_> {
             // All columns must fit then: a coordinate with the wrong sign makes those of a symmetric robot
             // look swapped in pairs.
             let rest = n as f64 * misfit - before;
-            if before > 2.0 * FAR * self.size && rest + after < LEFT * before {
+            if before > 2.0 * SWAPPED * self.size && rest + after < LEFT * before {
                 return Err(swapped(&Quantity::Length(i).to_string(), &Quantity::Length(j).to_string()));
             }
         }
         Ok(())
     }
 
-    /// Refuses a column, and a row, whose lengths are far from the distances while most are not.
-    fn check_distances(&self) -> Result<(), CalibrationError> {
+    /// Refuses a column, and a row, whose lengths are far from those of straight cables while most are not.
+    fn check_lengths(&self) -> Result<(), CalibrationError> {
         let n = self.robot.cables.len();
-        let distance = |of: &Placed, i: usize| self.distance(of, of.position, i);
-        let off = |of: &Placed, i: usize| (of.lengths[i] - distance(of, i)).abs();
+        let straight = |of: &Placed, i: usize| self.straight(of, of.position, i);
+        let off = |of: &Placed, i: usize| (of.lengths[i] - straight(of, i)).abs();
         let usual: Vec<f64> =
             (0..n).map(|i| median(self.rows.iter().map(|of| off(of, i)).collect())).collect();
         if median(usual.clone()) > FAR * self.size {
@@ -160,9 +164,9 @@ impl PlacedRows<'_> {
         if let Some(i) = usual.iter().position(|of| *of > elsewhere) {
             let first = &self.rows[0];
             let expected = format!(
-                "lengths near the distances of its points at the measured poses, {:.4} m instead of {:.4} m \
+                "lengths near those of a straight cable at the measured poses, {:.4} m instead of {:.4} m \
                  in line {}: its unit or its cable may be another",
-                distance(first, i),
+                straight(first, i),
                 first.lengths[i],
                 first.row.line
             );
@@ -172,9 +176,9 @@ impl PlacedRows<'_> {
             let farthest = (0..n).max_by(|i, j| off(of, *i).total_cmp(&off(of, *j)));
             if let Some(i) = farthest.filter(|i| off(of, *i) > elsewhere) {
                 let expected = format!(
-                    "about {:.4} m, the distance of its points at the measured pose: the row may be of \
+                    "about {:.4} m, that of a straight cable at the measured pose: the row may be of \
                      another pose or robot",
-                    distance(of, i)
+                    straight(of, i)
                 );
                 return Err(cell(of.row, i, of.lengths[i], expected));
             }

@@ -6,9 +6,6 @@ use cdpr_calibration::{
 };
 use std::time::Instant;
 
-/// Fits after which the median of the time is taken.
-const TIMES: usize = 5;
-
 #[test]
 fn fifty_poses_with_up_to_ninety_unknowns_take_few_steps() {
     let errors = [
@@ -29,23 +26,18 @@ fn fifty_poses_with_up_to_ninety_unknowns_take_few_steps() {
         for (error, _) in &errors {
             unknowns.add(&case.robot, *error, None, 0);
         }
-        let mut seconds: Vec<f64> = Vec::new();
-        for _ in 0..TIMES {
-            let clock = Instant::now();
-            let found = fit(&case.robot, &rows, &unknowns, &FitSettings::default()).unwrap();
-            seconds.push(clock.elapsed().as_secs_f64());
-            assert!(found.converged() && found.p_value().unwrap() > 1e-3, "{}: {}", case.name, found.steps);
-            assert!(found.steps <= 40, "{}: {} steps", case.name, found.steps);
-        }
-        seconds.sort_by(f64::total_cmp);
+        let clock = Instant::now();
+        let found = fit(&case.robot, &rows, &unknowns, &FitSettings::default()).unwrap();
         println!(
-            "{}: {} rows, {} unknowns of all rows, {} of single rows, median of {TIMES} {:.3} s",
+            "{}: {} rows, {} unknowns of all rows, {} of single rows, {:.3} s",
             case.name,
             rows.len(),
             unknowns.all.len(),
             rows.len() * case.robot.cables.len(),
-            seconds[TIMES / 2]
+            clock.elapsed().as_secs_f64()
         );
+        assert!(found.converged() && found.p_value().unwrap() > 1e-3, "{}: {}", case.name, found.steps);
+        assert!(found.steps <= 40, "{}: {} steps", case.name, found.steps);
     }
 }
 

@@ -96,6 +96,29 @@ fn a_coordinate_with_the_wrong_sign_is_named() {
     }
 }
 
+/// Neighbours whose lengths differ little, behind long leads and over pulleys.
+#[test]
+fn two_lengths_that_are_swapped_are_named_behind_leads_and_pulleys() {
+    for case in cases() {
+        let mut case = case.within(0.5 * case.half);
+        case.robot.cables.iter_mut().enumerate().for_each(|(i, cable)| cable.lead = 2.0 + 0.5 * i as f64);
+        let of = |p: &Parameter| if matches!(p.group(), "a" | "b") { 2e-3 } else { 0.0 };
+        case.stds = Parameter::of(&case.robot).iter().map(of).collect();
+        let poses = case.poses(12);
+        let deviations = vec![0.0; case.stds.len()];
+        let rows = simulate(&case.simulated(&deviations, &poses, EXTERNAL, 5)).unwrap();
+        for [i, j] in [[0, 1], [1, 2], [2, 3]] {
+            let mut rows = rows.clone();
+            rows.iter_mut().flat_map(|row| &mut row.lengths).for_each(|lengths| lengths.swap(i, j));
+            let unknowns = Unknowns::of_model(&case.model());
+            let found = fit(&case.robot, &rows, &unknowns, &FitSettings::default());
+            let error = found.map_or_else(|error| error.to_string(), |_| "none".to_owned());
+            let words = format!("column l{}_m and l{}_m: expected them the other way round", i + 1, j + 1);
+            assert!(error.starts_with(&words), "{} {i} {j}: {error}", case.name);
+        }
+    }
+}
+
 fn flip(rows: &mut [Row], quantity: Quantity) {
     for reading in rows.iter_mut().flat_map(|row| &mut row.readings) {
         if reading.quantity == quantity {
@@ -110,11 +133,12 @@ fn a_displacement_with_the_wrong_sign_shows_in_its_own_column() {
     for case in cases().iter().filter(|case| matches!(case.name, "CAROCA" | "CoGiRo" | "FAST")) {
         let load = Load::payload(if case.name == "FAST" { 2000.0 } else { 50.0 });
         let mut rows = campaign(case, &drawn(&case.model(), 5), noise, load);
+        rows.truncate(16);
         let quantity = Quantity::Displacement(Axis::Z);
         flip(&mut rows, quantity);
         let (found, _) = noticed("wrong sign", case, &case.robot, &case.model(), &rows);
-        let of_column = found.outliers().iter().take(40).filter(|of| of.quantity == quantity).count();
-        println!("{of_column} of the 40 farthest numbers are of this column");
-        assert!(of_column >= 30, "{}: {of_column}", case.name);
+        let of_column = found.outliers().iter().take(16).filter(|of| of.quantity == quantity).count();
+        println!("{of_column} of the 16 farthest numbers are of this column");
+        assert!(of_column >= 12, "{}: {of_column}", case.name);
     }
 }

@@ -6,14 +6,25 @@
 //!
 //! ```text
 //! f = -m (a + α x c + ω x (ω x c)),      m_P = c x f - I α - ω x I ω                                (N16)
-//! w = (f, m_P) - M_c (a, α) - W L'',      L''_i = e_i·(a + α x s_i)                                (N17)
+//! w = (f, m_P) + sum (r_i, s_i x r_i),
+//! r_i = -M_i a_i - W_i L''_i,      a_i = a + α x s_i,      L''_i = e_i·a_i                          (N17)
 //! ```
 //!
 //! with the lever c of the centre of mass, the direction e_i from exit to anchor point and the lever s_i of
-//! the latter. `M_c` and `W` are the inertia of the cables: the terms in ω² of their dynamic stiffness and of
-//! the force by which a winch moves the platform, (N12), at low frequencies. L'' is what keeps the sag of a
+//! the latter. `M_i` and `W_i` are the inertia of a cable: the terms in ω² of the dynamic stiffness of its end
+//! and of the force by which a winch moves it, (N12), at low frequencies. L'' is what keeps the sag of a
 //! cable whose anchor point accelerates. Distances grow at constant speed, too, where they turn; the cable is
-//! then paid out without a change of its sag, which nothing resists. Lengths at rest have kinks where a cable
+//! then paid out without a change of its sag, which nothing resists.
+//!
+//! The static model under w has the forces of the cables without their own inertia, T_i t_i at the anchor
+//! point and T_E,i at the exit. Those in motion are
+//!
+//! ```text
+//! |T_i t_i - r_i|,      T_E,i - W_i·a_i - Z_i L''_i,      Z_i = m_i - t_i·M_i t_i - 2 W_i·t_i       (N24)
+//! ```
+//!
+//! with the mass m_i and the direction t_i at the anchor point: a cable that runs along its own shape,
+//! `a_i = t_i L''_i`, moves everywhere as fast. Lengths at rest have kinks where a cable
 //! comes to its least tension, and those with feed-forward jump in their rate at both ends of a move.
 //! Lengths and poses then belong to each other to second order in ω over the cables' own frequencies; what
 //! the cables swing themselves is left to the shaper.
@@ -27,10 +38,10 @@ mod way;
 
 use crate::error::{DynamicsError, positive};
 use crate::simulate::{Profile, WinchLengths};
-use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_robot::{Pose, Robot, Vector3, Vector6};
 use cdpr_statics::{InversePath, Load, StaticsError};
 pub use excited::Excited;
-use inertia::{CableInertia, resistance};
+use inertia::{CableInertia, Resistance, resistance};
 pub use residual::{Residual, residual};
 pub use shaper::{Shaper, ShaperKind};
 use way::{Motion, Way};
@@ -120,7 +131,7 @@ impl Move<'_> {
             let both = point.lengths.iter().zip(&still.lengths);
             point.feed_forward = both.map(|(length, still)| length - still).collect();
         }
-        Ok(found)
+        self.with_tensions(&way, found)
     }
 
     /// Length of the smooth curve through the poses along which P moves [m].
@@ -135,7 +146,7 @@ impl Move<'_> {
     fn in_motion(&self, way: &Way) -> Result<Vec<SetPoint>, DynamicsError> {
         if self.feed_forward == FeedForward::Cables {
             let wrenches = Wrenches::new(self, way)?;
-            return self.set_points(way, &|time, motion| wrenches.load(time, motion));
+            return self.set_points(way, &|time, motion| wrenches.load(motion, &wrenches.own(time, motion)));
         }
         self.check_inertia(way)?;
         self.set_points(way, &|_, motion| self.with(self.of_platform(motion)))
@@ -148,11 +159,11 @@ impl Move<'_> {
     }
 
     /// (N16).
-    fn of_platform(&self, motion: &Motion) -> nalgebra::Vector6<f64> {
+    fn of_platform(&self, motion: &Motion) -> Vector6<f64> {
         resistance(self.robot, &self.load, motion).unwrap_or_default()
     }
 
-    fn with(&self, wrench: nalgebra::Vector6<f64>) -> Load {
+    fn with(&self, wrench: Vector6<f64>) -> Load {
         let wrench = self.load.wrench + cdpr_robot::Wrench::from_vector(&wrench);
         Load { wrench, ..self.load }
     }
@@ -263,17 +274,25 @@ impl<'a> Wrenches<'a> {
         Ok(Self { of, inertia: CableInertia::along(of.robot, &of.load, way)? })
     }
 
-    /// The load with the wrench at a time [s].
-    fn load(&self, time: f64, motion: &Motion) -> Load {
+    /// How the cables resist at a time [s].
+    fn own(&self, time: f64, motion: &Motion) -> Vec<Resistance> {
         let Move { robot, .. } = self.of;
         let [a, turn] = [0, 3].map(|k| Vector3::from(motion.acceleration.fixed_rows::<3>(k)));
-        let growth = (0..robot.cables.len()).map(|i| {
+        let ends = (0..robot.cables.len()).map(|i| {
             let anchor = a + turn.cross(&robot.anchor_arm(&motion.pose, i));
-            robot.span(&motion.pose, i).normalize().dot(&anchor)
+            (anchor, robot.span(&motion.pose, i).normalize().dot(&anchor))
         });
-        let growth: Vec<f64> = growth.collect();
-        let more = self.inertia.resistance(self.of.share_at(time)[0], motion, &growth);
-        self.of.with(self.of.of_platform(motion) + more)
+        self.inertia.resistance(self.of.share_at(time)[0], &ends.collect::<Vec<_>>())
+    }
+
+    /// The load with the wrench of platform and cables.
+    fn load(&self, motion: &Motion, own: &[Resistance]) -> Load {
+        let mut wrench = self.of.of_platform(motion);
+        for (i, Resistance { force, .. }) in own.iter().enumerate() {
+            let moment = self.of.robot.anchor_arm(&motion.pose, i).cross(force);
+            wrench += Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
+        }
+        self.of.with(wrench)
     }
 }
 

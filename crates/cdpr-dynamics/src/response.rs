@@ -36,7 +36,7 @@ pub(crate) mod shaken;
 
 use crate::energy::{Number, Vector, Vibrating, real};
 use crate::error::{DynamicsError, positive};
-use crate::response::shaken::ShakenCable;
+use crate::response::shaken::{ShakenCable, StiffnessAndPull};
 use cdpr_statics::vibration::{CableAtRest, SmallMotions};
 use cdpr_statics::{DMatrix, DirectProblem, Equilibrium, Matrix6, Vector3, stiffness};
 use nalgebra::{Complex, Matrix3, Matrix3xX, Matrix6xX, Vector6};
@@ -219,20 +219,32 @@ impl FrequencyResponse {
     /// What the cables add to the dynamic stiffness of the platform, and the wrench on the held platform for
     /// each length that a winch takes in, 6 x n [N/m, N].
     pub(crate) fn of_cables(&self, frequency: f64) -> Result<CablesAndPulls, DynamicsError> {
-        let omega = TAU * frequency;
         let mut dynamic = Matrix6::zeros();
         let mut pulls = Matrix6xX::zeros(self.cables.len());
-        for (i, cable) in self.cables.iter().enumerate() {
-            let Some(cable) = cable else { continue };
-            let found = cable.at(omega, &self.damping);
-            let (stiffness, pull) = found.ok_or(DynamicsError::Resonance { frequency })?;
+        for (i, (cable, found)) in self.cables.iter().zip(self.of_each_cable(frequency)?).enumerate() {
+            let (Some(cable), Some((stiffness, pull))) = (cable, found) else { continue };
             dynamic += on_platform(&cable.lever.map(real), &stiffness);
-            let pull = pull + cable.more_pull.map(real);
             let moment = cable.lever.map(real).cross(&pull);
             pulls.fixed_view_mut::<3, 1>(0, i).copy_from(&pull);
             pulls.fixed_view_mut::<3, 1>(3, i).copy_from(&moment);
         }
         Ok((dynamic, pulls))
+    }
+
+    /// The same of the end of each cable, in the base frame; `None` of one without mass and force.
+    pub(crate) fn of_each_cable(
+        &self,
+        frequency: f64,
+    ) -> Result<Vec<Option<StiffnessAndPull>>, DynamicsError> {
+        let one = |cable: &ShakenCable| {
+            let (stiffness, pull) = cable.at(TAU * frequency, &self.damping)?;
+            Some((stiffness, pull + cable.more_pull.map(real)))
+        };
+        let found = |cable: &Option<ShakenCable>| {
+            let Some(cable) = cable else { return Ok(None) };
+            one(cable).map(Some).ok_or(DynamicsError::Resonance { frequency })
+        };
+        self.cables.iter().map(found).collect()
     }
 }
 

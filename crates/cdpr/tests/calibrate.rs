@@ -187,14 +187,17 @@ fn bad_measurements_are_named_by_line_and_column() {
         (&|cells| cells[0][9] = "x_mm".to_owned(), "column x_mm: expected each quantity once"),
         (&|cells| cells[6][2] = "-3".to_owned(), "line 7, column l3_m: -3: expected a length above zero"),
         (&|cells| cells[6][11] = "5".to_owned(), "line 7, column qw: 5: expected the quaternion"),
-        (&|cells| cells[0][0] = "l1_mm".to_owned(), "column l1_m: expected lengths near the distances"),
+        (
+            &|cells| cells[0][0] = "l1_mm".to_owned(),
+            "column l1_m: expected lengths near those of a straight cable",
+        ),
         (&|cells| cells.truncate(1), "measurements is empty: expected a row for each pose below a header"),
         (&|cells| cells.clear(), "measurements is empty: expected a row for each pose below a header"),
         // Lengths of another pose, and of a smaller robot.
         (&|cells| (0..8).for_each(|k| cells[11][k] = cells[21][k].clone()), "line 12, column l"),
         (
             &|cells| cells[11][..8].iter_mut().for_each(scale),
-            "of its points at the measured pose: the row may be of",
+            "that of a straight cable at the measured pose: the row may be of",
         ),
         (&|cells| cells[4][3].clear(), "line 5: column l4_m is empty"),
     ];

@@ -1,6 +1,6 @@
 //! What a calibration takes, and its summary.
 
-use crate::fitted::{FitSettings, FitStatus};
+use crate::fitted::{FitSettings, FitStatus, UNLIKELY};
 use crate::results::patterns::{Split, Trend};
 use crate::results::predicted::UncertaintyMap;
 use crate::table::Measurements;
@@ -139,6 +139,13 @@ pub struct CalibrationSummary {
     pub starts: [usize; 2],
     /// What is odd about the result, a sentence each.
     pub warnings: Vec<String>,
+}
+
+impl CalibrationSummary {
+    /// Whether right models and noise seldom leave such a chi-square: what is stated of the accuracy is void.
+    pub fn is_unlikely(&self) -> bool {
+        self.p_value.is_some_and(|p| p < UNLIKELY)
+    }
 }
 
 /// What a calibration takes.

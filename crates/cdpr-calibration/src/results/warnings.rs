@@ -42,7 +42,7 @@ impl Fit {
                     .to_owned(),
             );
         }
-        if summary.p_value.is_some_and(|p| p < UNLIKELY) {
+        if summary.is_unlikely() {
             warnings.push(format!(
                 "chi-square is {:.1} with {} degrees of freedom: the model, the noise or some rows are wrong",
                 self.chi_square, self.degrees_of_freedom

@@ -1,15 +1,16 @@
-//! Tensions of a move whose lengths do not account for the motion.
+//! Tensions of a move.
 //!
-//! The tensions are those of the direct model under the wrench with which platform and cables resist the
-//! motion, (N17). Vibrations about this equilibrium are not in it.
+//! Those of the direct model under the wrench with which platform and cables resist the motion, (N17), with
+//! what each cable needs for its own motion, (N24). Vibrations about this equilibrium are not in it.
 
+use super::inertia::{Resistance, outwards};
 use super::way::Way;
-use super::{Motion, Move, SetPoint, Wrenches};
+use super::{Move, SetPoint, Wrenches};
 use crate::error::DynamicsError;
-use cdpr_statics::{DirectProblem, DirectStart, Equilibrium, StaticsError};
+use cdpr_statics::{DirectProblem, DirectStart, Equilibrium, Load, StaticsError};
 
 impl Move<'_> {
-    /// Set points with lengths at rest, with the tensions of the motion.
+    /// Set points with lengths, with the tensions of the motion.
     pub(super) fn with_tensions(
         &self,
         way: &Way,
@@ -20,28 +21,38 @@ impl Move<'_> {
         let end = points.len() - 1;
         for point in &mut points[1..end] {
             let motion = way.at(self.share_at(point.time));
-            let found = self.carried(&wrenches, &motion, point, last.as_ref()).map_err(|source| {
+            let own = wrenches.own(point.time, &motion);
+            let load = wrenches.load(&motion, &own);
+            let found = self.carry(point, &load, &own, last.as_ref()).map_err(|source| {
                 let position = motion.pose.position.into();
                 DynamicsError::TooFast { time: point.time, position, cable: None, source: Box::new(source) }
             })?;
-            point.tensions = found.tensions();
-            point.exit_tensions = found.exit_tensions(self.robot, &point.lengths);
             last = Some(found);
         }
         Ok(points)
     }
 
-    /// The platform in motion with the lengths of a set point.
-    fn carried(
+    /// Sets the tensions of a set point; the platform in motion with its lengths.
+    fn carry(
         &self,
-        wrenches: &Wrenches,
-        motion: &Motion,
-        point: &SetPoint,
+        point: &mut SetPoint,
+        load: &Load,
+        own: &[Resistance],
         last: Option<&Equilibrium>,
     ) -> Result<Equilibrium, StaticsError> {
-        let load = wrenches.load(point.time, motion);
-        let problem = DirectProblem::new(self.robot, &point.lengths, &load)?;
+        let problem = DirectProblem::new(self.robot, &point.lengths, load)?;
         let start = last.map_or(DirectStart::Pose(&point.pose), DirectStart::Near);
-        Ok(problem.direct(start)?.equilibrium)
+        let found = problem.direct(start)?.equilibrium;
+        let cables = problem.small_motions(&found)?.cables;
+        let at_exit = found.exit_tensions(self.robot, &point.lengths);
+        point.tensions.clear();
+        point.exit_tensions.clear();
+        // (N24)
+        for ((cable, own), at_exit) in cables.iter().zip(own).zip(at_exit) {
+            let pull = outwards(cable) * cable.catenary.force.norm();
+            point.tensions.push((pull - own.force).norm());
+            point.exit_tensions.push((at_exit + own.at_exit).max(0.0));
+        }
+        Ok(found)
     }
 }

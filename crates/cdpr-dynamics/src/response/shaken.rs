@@ -56,7 +56,7 @@ struct Shaken<const D: usize> {
 
 /// Stiffness of the end of a cable [N/m], and the force on its held end per length that its winch takes in
 /// [N/m].
-type StiffnessAndPull = (Matrix3<Number>, Vector);
+pub(crate) type StiffnessAndPull = (Matrix3<Number>, Vector);
 
 /// What a winch does to the unknowns of a cable, per length that it takes in.
 #[derive(Clone, Debug, Default)]

@@ -179,13 +179,16 @@ fn print(summary: &CalibrationSummary) {
     let (unknowns, identifiable) = (all().count(), all().filter(|(_, of)| of.identifiable).count());
     let (robot, rows) = (shown(&summary.robot), counted(summary.rows, "row"));
     let have = if summary.rows == 1 { "has" } else { "have" };
+    let (known, condition) =
+        if summary.is_unlikely() { ("would be known", ", if they did fit") } else { ("is known", "") };
     let mut sentences: Vec<String> = summary
         .position_std_after
         .iter()
         .map(|after| {
             let before = summary.position_std_before;
             let before = before.map_or_else(String::new, |std| format!(" (before {} mm)", digits(1e3 * std)));
-            format!("{robot}: the position is known to {} mm a coordinate{before}.", digits(1e3 * after))
+            let after = digits(1e3 * after);
+            format!("{robot}: the position {known} to {after} mm a coordinate{before}{condition}.")
         })
         .collect();
     if let [first, others @ ..] = &summary.position_depends_on[..] {
@@ -205,6 +208,8 @@ fn print(summary: &CalibrationSummary) {
                 significant(misfit.sqrt(), 3)
             ),
         );
+    } else if summary.is_unlikely() {
+        sentences.insert(0, format!("The measurements do not fit {robot} within their noise."));
     }
     let unknowns = counted(unknowns, "unknown");
     sentences.push(format!("{identifiable} of {unknowns} of {robot} are identifiable."));
