@@ -130,6 +130,16 @@ fn forces_follow_weight_drag_length_stiffness_lead_and_height() {
     }
 }
 
+/// The wind of a profile has a kink at the ground: steps that are not divided there take 128 of them or do not end.
+#[test]
+fn cables_that_cross_the_ground_take_few_steps() {
+    for case in cases() {
+        let profile = Some(WindOverHeight { roughness: 0.03, reference: 10.0, height: -0.3 * case.end[2] });
+        let held = CableInWind { profile, ..case.cable }.held_at(case.end, case.still()).unwrap();
+        assert!(held.steps <= 32, "{}: {held:?}", case.kind);
+    }
+}
+
 /// Above a very rough ground and far up, the law is that of the reference height again.
 #[test]
 fn at_its_height_of_reference_a_profile_is_the_wind_itself() {

@@ -140,10 +140,6 @@ fn every_observation_is_that_of_a_call_for_it_alone() {
             (own - mean).abs() < 1e-6 * mean + 1e-5 && (spread - deviation).abs() < 1e-6 * deviation + 1e-5
         );
         assert!(deviation > 1e-2 * mean, "{}: {deviation} {mean}", case.0);
-        // CAROCA's taut cables take a second for each observation in wind.
-        if case.0 == ROBOTS[0].0 {
-            continue;
-        }
         let summary = summary(&study);
         let values = summary.values.as_ref().unwrap();
         assert!((values.mean - mean).abs() < 1e-6 * mean + 1e-5, "{} {mean}", values.mean);

@@ -287,9 +287,28 @@ impl CableInWind<'_> {
         let step = free * (1.0 / steps as f64);
         let mut state = [[T::of(0.0); 3], given.force];
         for _ in 0..steps {
-            state = self.stepped(given, &state, step);
+            state = self.divided(given, &state, step);
         }
         state
+    }
+
+    /// A step, in two where the cable crosses the ground: a wind that grows with height has a kink there.
+    fn divided<T: Real>(&self, given: &Given<T>, state: &State<T>, step: T) -> State<T> {
+        let height = |state: &State<T>| given.height + state[0][2];
+        let (whole, before) = (self.stepped(given, state, step), height(state));
+        let after = height(&whole);
+        if self.profile.is_none() || before.value() * after.value() >= 0.0 {
+            return whole;
+        }
+        let mut part = step * before * (before - after).recip();
+        for _ in 0..3 {
+            let below = self.stepped(given, state, part);
+            part = part - height(&below) * self.slope(given, &below)[0][2].recip();
+        }
+        let crossed = self.stepped(given, state, part);
+        let divided = self.stepped(given, &crossed, step - part);
+        // Along the ground, steps may end nowhere.
+        if (part.value() / step.value() - 0.5).abs() <= 0.5 { divided } else { whole }
     }
 
     /// A step: midpoint rules with more and more substeps, extrapolated by the scheme of Aitken and Neville.
