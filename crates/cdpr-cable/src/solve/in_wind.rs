@@ -34,21 +34,15 @@
 //! dn(A)/dθ = ∂n/∂θ - ∂n/∂n(0) (∂r/∂n(0))⁻¹ ∂r/∂θ                                                 (C42)
 //! ```
 
+mod integration;
+
 use crate::cable::Cable;
 use crate::error::CableError;
-use crate::kernel::Material;
-use cdpr_number::vector::dot;
-use cdpr_number::{Dual, Lanewise, Real};
+use cdpr_number::{Dual, Real};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-/// Most steps of an integration.
-const MOST_STEPS: usize = 1024;
-
-/// Steps with which every cable has an end that Newton's method finds, or none.
+/// Equal steps with which every cable has an end that Newton's method finds, or none.
 const FINE_STEPS: usize = 16;
-
-/// Substeps of a step, of each of the midpoint rules that are extrapolated.
-const SUBSTEPS: [usize; 6] = [2, 4, 6, 8, 10, 12];
 
 /// Accuracy of the integration, relative to the length of the cable.
 const ACCURACY: f64 = 1e-11;
@@ -118,7 +112,7 @@ pub struct HeldInWind {
     pub closure: f64,
     /// Error of the integration in the position of the end [m], as two step sizes show it.
     pub error: f64,
-    /// Steps of the coarser one.
+    /// Steps of the coarser one, shorter where the wind along the cable or the ground bends its drag.
     pub steps: usize,
 }
 
@@ -142,12 +136,13 @@ impl CableInWind<'_> {
     /// # Errors
     /// [`CableError::NotConverged`], and [`CableError::Overstrained`] beyond [`crate::MAX_STRAIN`].
     pub fn held_at(&self, end: Vector3<f64>, near: Vector3<f64>) -> Result<HeldInWind, CableError> {
-        let (mut steps, mut start) = (2, near);
+        let (mut least, mut accuracy, mut start) = (1, ACCURACY, near);
         loop {
-            let held = match self.closed(end, start, steps) {
+            let steps = self.steps(start, least, accuracy)?;
+            let held = match self.closed(end, start, &steps) {
                 // Long steps may have no such end.
-                Err(_) if steps < FINE_STEPS => {
-                    steps *= 2;
+                Err(_) if least < FINE_STEPS => {
+                    least *= 2;
                     continue;
                 }
                 closed => closed?,
@@ -155,10 +150,8 @@ impl CableInWind<'_> {
             if held.error <= ACCURACY * self.unstrained_length {
                 return self.checked(held);
             }
-            if steps >= MOST_STEPS {
-                return Err(CableError::NotConverged { iterations: steps, residual: held.error });
-            }
-            (steps, start) = (2 * steps, held.exit_force);
+            // The steps are those of the force that was found.
+            (accuracy, start) = (0.25 * accuracy, held.exit_force);
         }
     }
 
@@ -170,8 +163,13 @@ impl CableInWind<'_> {
         }
     }
 
-    /// Newton's method with this number of steps of the integration.
-    fn closed(&self, end: Vector3<f64>, start: Vector3<f64>, steps: usize) -> Result<HeldInWind, CableError> {
+    /// Newton's method with these steps of the integration.
+    fn closed(
+        &self,
+        end: Vector3<f64>,
+        start: Vector3<f64>,
+        steps: &[f64],
+    ) -> Result<HeldInWind, CableError> {
         const MAX_ITERATIONS: usize = 60;
         let mut best = self.ended(end, start, steps);
         for _ in 0..MAX_ITERATIONS {
@@ -193,7 +191,7 @@ impl CableInWind<'_> {
 
     /// The cable with the force `start` at its leave point, and the change of that force which would end it
     /// at `end` if the cable were linear.
-    fn ended(&self, end: Vector3<f64>, start: Vector3<f64>, steps: usize) -> (HeldInWind, Vector3<f64>) {
+    fn ended(&self, end: Vector3<f64>, start: Vector3<f64>, steps: &[f64]) -> (HeldInWind, Vector3<f64>) {
         let given = Given { force: [0, 1, 2].map(|k| Dual::<f64, 3>::input(start[k], k)), ..self.given() };
         let ([r, n], error) = self.extrapolated(&given, steps);
         let values = |of: [Dual<f64, 3>; 3]| Vector3::from(of.map(|component| component.value));
@@ -207,7 +205,7 @@ impl CableInWind<'_> {
             stiffness: slopes(n) * per_end,
             closure: open.norm(),
             error,
-            steps,
+            steps: steps.len(),
         };
         (held, per_end * open)
     }
@@ -229,7 +227,7 @@ impl CableInWind<'_> {
             guided: input(own.guided, 9),
             height: input(own.height, 10),
         };
-        let (state, _) = self.extrapolated(&given, held.steps);
+        let (state, _) = self.extrapolated(&given, &self.steps(held.exit_force, 1, ACCURACY)?);
         let [r, n] = state.map(|of| SMatrix::<f64, 3, INPUTS>::from_fn(|row, column| of[row].slopes[column]));
         let start = |of: &SMatrix<f64, 3, INPUTS>| of.fixed_columns::<3>(0).into_owned();
         let per_end = start(&r).try_inverse().filter(|inverse| inverse.iter().all(|x| x.is_finite()));
@@ -272,118 +270,11 @@ impl CableInWind<'_> {
     fn extrapolated<const N: usize>(
         &self,
         given: &Given<Dual<f64, N>>,
-        steps: usize,
+        steps: &[f64],
     ) -> (State<Dual<f64, N>>, f64) {
         let values = Given { force: given.force.map(|of| of.value), ..self.given::<f64>() };
-        let (coarse, fine) = (self.integrated(&values, steps), self.integrated(given, 2 * steps));
+        let (coarse, fine) = (self.integrated(&values, steps, 1), self.integrated(given, steps, 2));
         let apart = |k: usize| (fine[0][k].value - coarse[0][k]) / 15.0;
         (fine, Vector3::from([0, 1, 2].map(apart)).norm())
     }
-
-    /// The end of the cable, (C40).
-    fn integrated<T: Real>(&self, given: &Given<T>, steps: usize) -> State<T> {
-        let tension = dot(&given.force, &given.force).sqrt();
-        let free = given.length - given.guided / self.material(given).stretch(tension)[0];
-        let step = free * (1.0 / steps as f64);
-        let mut state = [[T::of(0.0); 3], given.force];
-        for _ in 0..steps {
-            state = self.divided(given, &state, step);
-        }
-        state
-    }
-
-    /// A step, in two where the cable crosses the ground: a wind that grows with height has a kink there.
-    fn divided<T: Real>(&self, given: &Given<T>, state: &State<T>, step: T) -> State<T> {
-        let height = |state: &State<T>| given.height + state[0][2];
-        let (whole, before) = (self.stepped(given, state, step), height(state));
-        let after = height(&whole);
-        if self.profile.is_none() || before.value() * after.value() >= 0.0 {
-            return whole;
-        }
-        let mut part = step * before * (before - after).recip();
-        for _ in 0..3 {
-            let below = self.stepped(given, state, part);
-            part = part - height(&below) * self.slope(given, &below)[0][2].recip();
-        }
-        let crossed = self.stepped(given, state, part);
-        let divided = self.stepped(given, &crossed, step - part);
-        // Along the ground, steps may end nowhere.
-        if (part.value() / step.value() - 0.5).abs() <= 0.5 { divided } else { whole }
-    }
-
-    /// A step: midpoint rules with more and more substeps, extrapolated by the scheme of Aitken and Neville.
-    fn stepped<T: Real>(&self, given: &Given<T>, state: &State<T>, step: T) -> State<T> {
-        let first = self.slope(given, state);
-        let mut row = [*state; SUBSTEPS.len()];
-        for (j, count) in SUBSTEPS.into_iter().enumerate() {
-            let mut above =
-                std::mem::replace(&mut row[0], self.midpoint(given, (state, &first), step, count));
-            for k in 1..=j {
-                let ratio = count as f64 / SUBSTEPS[j - k] as f64;
-                let (left, weight) = (row[k - 1], 1.0 / (ratio * ratio - 1.0));
-                let next =
-                    [0, 1].map(|of| [0, 1, 2].map(|i| left[of][i] + (left[of][i] - above[of][i]) * weight));
-                above = std::mem::replace(&mut row[k], next);
-            }
-        }
-        row[SUBSTEPS.len() - 1]
-    }
-
-    /// Gragg's modified midpoint rule with an even number of substeps, from a state with its slope.
-    fn midpoint<T: Real>(
-        &self,
-        given: &Given<T>,
-        (state, slope): (&State<T>, &State<T>),
-        step: T,
-        count: usize,
-    ) -> State<T> {
-        let short = step * (1.0 / count as f64);
-        let (mut before, mut here) = (*state, moved(state, slope, short));
-        for _ in 1..count {
-            let next = moved(&before, &self.slope(given, &here), short * 2.0);
-            before = std::mem::replace(&mut here, next);
-        }
-        let last = self.slope(given, &here);
-        [0, 1].map(|of| [0, 1, 2].map(|k| (here[of][k] + before[of][k] + last[of][k] * short) * 0.5))
-    }
-
-    /// dr/ds and dn/ds, (C39) and (C40).
-    fn slope<T: Real>(&self, given: &Given<T>, [r, force]: &State<T>) -> State<T> {
-        let tension = dot(force, force).sqrt();
-        let per_tension = tension.recip();
-        let stretch = self.material(given).stretch(tension)[0];
-        let t = force.map(|component| component * per_tension);
-        let share = self.profile.map_or(T::of(1.0), |profile| profile.share(given.height + r[2]));
-        let velocity = [0, 1, 2].map(|k| share * self.velocity[k]);
-        let along = dot(&velocity, &t);
-        let across = [0, 1, 2].map(|k| velocity[k] - along * t[k]);
-        // The root has no derivative at zero.
-        let speed = (dot(&across, &across) + f64::MIN_POSITIVE).sqrt();
-        let drag = stretch * speed * given.drag;
-        [t.map(|component| stretch * component), [0, 1, 2].map(|k| -(across[k] * drag) - given.weight[k])]
-    }
-
-    fn material<T: Lanewise + Real>(&self, given: &Given<T>) -> Material<'_, T> {
-        let weight_per_length = T::of(self.cable.weight_per_length);
-        let axial_flexibility = given.axial_flexibility;
-        Material { law: self.cable.law.terms(), weight_per_length, axial_flexibility }
-    }
-}
-
-impl WindOverHeight {
-    /// The velocity at a height [m] over that at the reference height, (C41).
-    fn share<T: Real>(&self, height: T) -> T {
-        if height.value() <= 0.0 {
-            return T::of(0.0);
-        }
-        let per_reference = (self.reference / self.roughness).ln_1p().recip();
-        let above = height * (1.0 / self.roughness) + 1.0;
-        // ln x = ln a + x/a - 1 to first order, exact in value and derivative at a = x.
-        let near = above.value();
-        (above * (1.0 / near) + (near.ln() - 1.0)) * per_reference
-    }
-}
-
-fn moved<T: Real>(state: &State<T>, slope: &State<T>, by: T) -> State<T> {
-    [0, 1].map(|of| [0, 1, 2].map(|k| state[of][k] + slope[of][k] * by))
 }
