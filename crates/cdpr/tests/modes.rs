@@ -164,3 +164,21 @@ fn a_heading_has_the_pose_at_which_free_coordinates_are_found() {
     }
     assert!(answer(&["modes", &data_path("robots/cogiro.json"), "--pose", "0,0,2"])["found_pose"].is_null());
 }
+
+#[test]
+fn the_table_of_a_pose_has_a_row_for_each_motion() {
+    let ask = ["modes", "cogiro", "--pose", "0,0,2", "--number", "3"];
+    let found = answer(&ask);
+    let table = printed(&[&ask[..], &["--format", "csv"]].concat());
+    let lines: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(lines.len(), 4, "{table}");
+    let of = |name: &str, row: usize| {
+        let column = lines[0].iter().position(|cell| *cell == name).unwrap();
+        lines[row][column].parse::<f64>().unwrap()
+    };
+    for (k, mode) in found["modes"].as_array().unwrap().iter().enumerate() {
+        assert_eq!(of("frequency_hz", k + 1), number(&mode["frequency_hz"]));
+        assert_eq!(of("cable_share_8", k + 1), numbers(&mode["cable_shares"])[7]);
+        assert_eq!(of("rotation_z", k + 1), numbers(&mode["rotation"])[2]);
+    }
+}

@@ -50,6 +50,25 @@ fn the_law_of_a_record_is_written() {
 }
 
 #[test]
+fn a_breaking_force_in_another_unit_is_questioned() {
+    let all = [
+        "--breaking-force",
+        "10.29",
+        "--section",
+        "1.2566370614e-5",
+        "--length",
+        "1",
+        "--range",
+        "10000-20000",
+    ];
+    let said = unwrapped(cdpr(&[&["cable", "modulus", &record()], &all[..]].concat()).stderr);
+    assert!(
+        said.contains("--breaking-force is 10.290 N: less than the greatest force of the record, 3087.000 N"),
+        "{said}"
+    );
+}
+
+#[test]
 fn what_cannot_be_answered_ends_with_an_error_that_says_why() {
     let folder = tempfile::tempdir().unwrap();
     let bad = folder.path().join("bad.csv");

@@ -7,7 +7,7 @@ use crate::program::output::{patiently, print_sentence, table};
 use crate::program::questions;
 use cdpr_cable::{Phase, Record, SecantModulus, Specimen};
 use cdpr_report::{Cycle, CycleBranch, Sheet, cycle};
-use cdpr_robot::plausible;
+use cdpr_robot::{Doubt, plausible, visible};
 use cdpr_study::{CableLaw, law_json, open_record};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -87,6 +87,14 @@ impl From<SecantModulus> for Modulus {
 
 pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let record = patiently("reading the record", || open_record(&settings.record))?;
+    let greatest = [Phase::Loading, Phase::Unloading].map(|phase| record.forces(phase)[1]);
+    let greatest = greatest[0].max(greatest[1]);
+    questions::ask((greatest > settings.breaking_force).then(|| Doubt {
+        quantity: "--breaking-force".to_owned(),
+        value: format!("{} N", visible(settings.breaking_force, 3)),
+        why: format!("less than the greatest force of the record, {} N", visible(greatest, 3)),
+        meant: "a breaking force in N".to_owned(),
+    }));
     let names = ["force", "elongation", "length", "section"];
     let [force, elongation, length, section] = settings.errors.all("--errors", names)?;
     let specimen = Specimen {

@@ -219,6 +219,23 @@ impl Row for Answer {
         ]
     }
 
+    fn cases(&self) -> Option<Vec<Vec<String>>> {
+        let cables = self.modes.first()?.cable_shares.len();
+        let numbered =
+            |name: &str, count: usize| (1..=count).map(|k| format!("{name}_{k}")).collect::<Vec<_>>();
+        let along = |name: &str| ["x", "y", "z"].map(|axis| format!("{name}_{axis}"));
+        let names = ["frequency_hz", "within", "platform_share"].map(str::to_owned).into_iter();
+        let names = names.chain(numbered("cable_share", cables)).chain(["swing_share".to_owned()]);
+        let names = names.chain(along("translation")).chain(along("rotation"));
+        let row = |mode: &Motion| {
+            let first = [mode.frequency_hz, mode.within, mode.platform_share];
+            let all =
+                [&first[..], &mode.cable_shares, &[mode.swing_share], &mode.translation, &mode.rotation];
+            all.concat().iter().map(|value| format!("{value:?}")).collect()
+        };
+        Some([names.collect()].into_iter().chain(self.modes.iter().map(row)).collect())
+    }
+
     fn found_pose(&self) -> Option<Pose> {
         self.found_pose
     }
