@@ -11,7 +11,7 @@ STUBS = Path(__file__).parent / "python" / "cdpr" / "_core.pyi"
 
 
 def documentation(module, node, owner=None):
-    """The documentation of a class, function or method of the stubs, None where there is none."""
+    """The documentation of a class, function or method of the stubs; None without one."""
     of = getattr(module if owner is None else owner, node.name, None)
     if owner is not None and node.name.startswith("__"):
         return None

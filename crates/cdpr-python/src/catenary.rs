@@ -31,7 +31,7 @@ answer! {
         residual: Py<PyAny>,
         /// Points (x, z) from exit to anchor point, at equal unstrained distances [m], (points, 2).
         shape: Py<PyAny>,
-        /// Why there is no answer, None where there is one; None for one cable.
+        /// Why there is no answer, None if there is one; None for one cable.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,

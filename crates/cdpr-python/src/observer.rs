@@ -1,6 +1,7 @@
-//! `Observer`: what lengths and measured tensions say about the load and the cables, one sample after the other.
+//! `Observer`: what lengths and measured tensions say about the load and the cables, one sample after the
+//! other.
 
-use crate::convert::{Answer, Cases, Columns, Numbers, Raised, Rows, answer, run};
+use crate::convert::{Answer, Cases, Columns, Numbers, Raised, Rows, answer, plotted, run};
 use crate::robot::Robot;
 use cdpr_observer::{Alarm, CableState, Estimate, LoadObserver, Observed, ObserverSetting};
 use cdpr_statics::StaticsError;
@@ -18,8 +19,9 @@ answer! {
         payload: Py<PyAny>,
         /// Its standard deviation [kg].
         payload_std: Py<PyAny>,
-        /// Centre of the load in the frame of the platform, from P [m], (3,); NaN where the load is below three
-        /// times its standard deviation, or where the samples have not halved the uncertainty of its moment.
+        /// Centre of the load in the frame of the platform, from P [m], (3,); NaN where the load is below
+        /// three times its standard deviation, or where the samples have not halved the uncertainty of its
+        /// moment.
         center: Py<PyAny>,
         /// Its standard deviation [m], (3,).
         center_std: Py<PyAny>,
@@ -41,7 +43,8 @@ answer! {
         alarm: Py<PyAny>,
         /// Cables that read no tension, as the model allows, (n,).
         slack: Py<PyAny>,
-        /// Cables that read no tension although the model has them taut, and no plausible load explains it, (n,).
+        /// Cables that read no tension although the model has them taut, and no plausible load explains it,
+        /// (n,).
         lost: Py<PyAny>,
         /// Whether the model found a rest for the lengths; if not, the sample changed nothing.
         converged: Py<PyAny>,
@@ -49,6 +52,8 @@ answer! {
         reasons: Py<PyAny>,
     }
 }
+
+plotted!(LoadEstimates);
 
 /// One sample.
 struct Sample {
@@ -59,9 +64,9 @@ struct Sample {
 
 /// Observes payload, centre of mass, modulus and broken cables from lengths and measured tensions.
 ///
-/// It keeps the rest of the robot at the last sample, and its estimate with the covariance: recursive least squares
-/// on the exact derivatives of the direct model. Sensors read the tensions at the platform; their errors are
-/// independent from sample to sample but for a constant one, which `tare` removes.
+/// It keeps the rest of the robot at the last sample, and its estimate with the covariance: recursive least
+/// squares on the exact derivatives of the direct model. Sensors read the tensions at the platform; their
+/// errors are independent from sample to sample but for a constant one, which `tare` removes.
 ///
 /// Parameters
 /// ----------
@@ -155,8 +160,8 @@ impl Observer {
         Ok(Self { observer: Mutex::new(observer), cables })
     }
 
-    /// Takes samples without load: the mean difference between tensions and model over all such samples is the
-    /// constant error of each sensor, which later samples subtract.
+    /// Takes samples without load: the mean difference between tensions and model over all such samples is
+    /// the constant error of each sensor, which later samples subtract.
     ///
     /// Parameters
     /// ----------

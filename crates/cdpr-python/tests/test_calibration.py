@@ -112,6 +112,11 @@ def test_plans_are_those_of_the_program(caroca, caroca_file, candidates):
     assert told.held == 6 and len(told.remaining) == len(told.inputs)
     bits = sum(0.5 * numpy.log2(1 + of.signal_to_noise**2) for of in told.identifiable)
     assert bits == pytest.approx(found.quality.information_bits, rel=1e-6)
+    best = told.identifiable[0]
+    assert list(best.weights.values()) == list(best.weight) and f"signal_to_noise {best.signal_to_noise:.4g}" in repr(best)
+    assert numpy.sum(best.weight**2) == pytest.approx(1)
+    pytest.importorskip("pandas", reason="pandas is not installed")
+    assert dict(best.to_dataframe()["weight"]) == best.weights
     arguments = ["--region=-2:2:4,-1:1:3,1:2.5:4", "--number", 6, "--noise", "position=1e-4,rotation=1e-4"]
     theirs = answer(
         "calibrate", "plan", caroca_file, *arguments, "--uncertainty", "a=0.002,b=0.002,youngs_modulus=5e9"
@@ -121,6 +126,21 @@ def test_plans_are_those_of_the_program(caroca, caroca_file, candidates):
     assert found.poses == pytest.approx(numpy.array(theirs["poses"]), abs=1e-12)
     with pytest.raises(cdpr.InputError, match="work has no pose"):
         cdpr.calibration.plan(caroca, candidates, criterion="mean-at-work", **known)
+
+
+def test_readings_of_pulleys_are_a_frame_and_a_figure():
+    robot = cdpr.Robot.from_file("expo2015-lucia")
+    cycle = cdpr.assess.hysteresis(robot, [0, 0, 2], 50, friction=0.05, steps=10)
+    table = {f"t{i + 1}_winch_n": cycle.winch_tensions[:, i] for i in range(8)}
+    found = cdpr.calibration.calibrate_pulleys(robot, {**table, "payload_kg": cycle.payloads}, [0, 0, 2])
+    pytest.importorskip("pandas", reason="pandas is not installed")
+    frame = found.to_dataframe()
+    assert list(frame.columns) == ["line", "cable", "platform_n", "measured_n", "modelled_n", "slip"]
+    assert list(frame["measured_n"]) == list(found.readings["measured_n"])
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed").use("svg")
+    measured, modelled = found.plot().axes[0].lines
+    for line, name in ((measured, "measured_n"), (modelled, "modelled_n")):
+        numpy.testing.assert_array_equal(line.get_ydata(), frame[name] - frame["platform_n"])
 
 
 def test_plans_take_laws_as_the_program_does(caroca, caroca_file, candidates, tmp_path):

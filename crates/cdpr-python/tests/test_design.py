@@ -50,6 +50,10 @@ def test_the_position_error_of_a_mass_on_two_cables_is_least_at_45_degrees():
     frame = found.to_dataframe()
     assert frame.loc["half", "to"] == found.values[0] and frame.loc["half", "unit"] == "m"
     assert repr(found).startswith("Designed(position: ")
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed").use("svg")
+    (axis,) = found.plot().axes
+    assert [bar.get_height() for bar in axis.patches] == list(found.outputs)
+    assert axis.lines[0].get_ydata()[0] == found.before and axis.get_ylabel() == "position [mm]"
 
 
 def test_a_file_and_its_content_have_the_same_best_robot():
@@ -75,6 +79,10 @@ def test_a_front_has_no_point_that_another_dominates():
     assert list(frame.columns) == ["mean_position", "worst_stiffness", "exchange", "optimal", "half"]
     for robot, values in zip(front.robots, front.values):
         assert robot.exit_points[0, 0] == values[0]
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed").use("svg")
+    (axis,) = front.plot().axes
+    numpy.testing.assert_array_equal(axis.lines[0].get_xydata(), front.objectives)
+    assert (axis.get_xlabel(), axis.get_ylabel()) == ("mean position [mm]", "worst stiffness [N/m]")
 
 
 def test_what_no_robot_can_do_has_a_reason_and_wrong_designs_are_refused():

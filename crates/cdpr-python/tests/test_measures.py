@@ -246,14 +246,18 @@ def test_every_result_prints_numbers_and_goes_to_pandas_and_matplotlib(found):
     pytest.importorskip("pandas", reason="pandas is not installed")
     matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not installed")
     matplotlib.use("svg")
+    from matplotlib import pyplot
+
     frame = found.to_dataframe()
     assert list(frame.index) == found.inputs and frame.shape[1] >= 1
     # What is shown first is the largest, with its number.
     name = found._drawn[0]
     largest = frame[name].abs().idxmax()
     assert f"{largest} {name} {frame[name][largest]:.4g}" in repr(found)
-    labels = [text.get_text() for text in found.plot().axes[0].get_yticklabels()]
-    assert sorted(labels) == sorted(found.inputs)
+    for figure in (found.plot(), found.plot(ax=pyplot.figure().add_subplot())):
+        labels = [text.get_text() for text in figure.axes[0].get_yticklabels()]
+        assert sorted(labels) == sorted(found.inputs)
+    pyplot.close("all")
     copy = pickle.loads(pickle.dumps(found))
     assert repr(copy) == repr(found)
     for field in (name for name in dir(type(found)) if not name.startswith("_")):

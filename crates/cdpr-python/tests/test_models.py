@@ -665,8 +665,14 @@ def test_answers_can_be_drawn(name):
     for answer in answers:
         figure = answer.plot()
         axis = figure.axes[0]
-        assert axis.get_ylabel() and (axis.lines or axis.patches or axis.collections), answer
-        pyplot.close(figure)
+        given = pyplot.figure().add_subplot(projection=axis.name)
+        assert answer.plot(ax=given) is given.figure
+        for drawn in (axis, given):
+            assert drawn.get_ylabel() and (drawn.lines or drawn.patches or drawn.collections), answer
+        if axis.name == "3d":
+            with pytest.raises(cdpr.InputError, match="ax has the projection 'rectilinear': expected \"3d\""):
+                answer.plot(ax=pyplot.figure().add_subplot())
+        pyplot.close("all")
 
 
 def test_a_map_over_powers_of_ten_has_colours_by_them():

@@ -186,10 +186,15 @@ def test_motions_and_responses_are_pickled_drawn_and_made_frames(cogiro):
 
     move = cogiro.move([[0, 0, 2], [0.1, 0, 2]], 0.5, rate=20)
     assert len(move.to_dataframe()) == len(move.times) == 11 and len(move.summary.to_dataframe()) == 1
-    for one, axes in [(motion, 3), (move, 1), (response, 1), (cogiro.response([[0, 0, 2], [1, 0, 2]], [0.0, 1.0]), 1)]:
+    poses = [[0, 0, 2], [1, 0, 2]]
+    alike = [move, response, cogiro.response(poses, [0.0, 1.0]), cogiro.massless_modes(poses)]
+    for one, axes in [(motion, 3), *((one, 1) for one in alike)]:
         figure = one.plot()
         assert len(figure.axes) == axes and all(axis.lines and axis.get_ylabel() for axis in figure.axes)
-        pyplot.close(figure)
+        # A motion has room for its tensions there.
+        given = pyplot.figure().add_subplot()
+        assert one.plot(ax=given) is given.figure and given.lines and len(given.figure.axes) == 1
+        pyplot.close("all")
 
 
 @pytest.mark.parametrize("with_", ["shaper=zvd,residual=0.3", "feed-forward,profile=polynomial"])

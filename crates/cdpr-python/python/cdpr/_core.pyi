@@ -417,9 +417,9 @@ class Robot:
     def with_parameters(self, values: Mapping[str, float]) -> Robot:
         """Makes a robot with other values of some parameters [SI units]: `{"mass": 185.0, "a1.x": 0.25}`.
 
-        Names are those in `parameters`. `linear_density` and `youngs_modulus` are those of the first cable, as
-        there; the other cables change by as much. Offsets dt belong to a set-point and not to a robot: they
-        can only be zero here; `deflection` takes them as `tension_offsets`.
+        Names are those in `parameters`. `linear_density` and `youngs_modulus` are those of the first cable,
+        as there; the other cables change by as much. Offsets dt belong to a set-point and not to a robot:
+        they can only be zero here; `deflection` takes them as `tension_offsets`.
 
         Parameters
         ----------
@@ -877,8 +877,8 @@ class Robot:
     ) -> Response[None]:
         """Computes how the platform moves when a force or a winch shakes it.
 
-        Cables have mass. The winches hold their lengths but for what shakes. Arguments are of one case, or have
-        a first axis of m cases; frequencies, damping and marker are those of all cases.
+        Cables have mass. The winches hold their lengths but for what shakes. Arguments are of one case, or
+        have a first axis of m cases; frequencies, damping and marker are those of all cases.
 
         Parameters
         ----------
@@ -1037,10 +1037,10 @@ class Robot:
         events : sequence of dict, optional
             What happens, in the words of the event files of `cdpr simulate`, each at a time `t` [s]:
             {"t": 0, "payload": -50} [kg]; {"t": 0, "cut": 1, "at": "anchor"} or "exit"; {"t": 0, "force":
-            [100, 0, 0], "moment": [0, 0, 0]} [N, N m]; {"t": 0, "displace": [dx, dy, dz, rx, ry, rz]} [m, rad];
-            {"t": 0, "shorten": {"cable": 1, "by": 0.003, "over": 0.2, "profile": "cosine"}} [m, s]; {"t": 0,
-            "lengths": {"times": times, "lengths": lengths}} with arrays (k,) and (k, n) [s, m], which winches
-            follow.
+            [100, 0, 0], "moment": [0, 0, 0]} [N, N m]; {"t": 0, "displace": [dx, dy, dz, rx, ry, rz]}
+            [m, rad]; {"t": 0, "shorten": {"cable": 1, "by": 0.003, "over": 0.2, "profile": "cosine"}} [m, s];
+            {"t": 0, "lengths": {"times": times, "lengths": lengths}} with arrays (k,) and (k, n) [s, m],
+            which winches follow.
         control : callable, optional
             Called at each sample with the time [s] and a `MotionState`. It returns what acts until the next
             sample besides the load and the events: a force at P in the base frame [N], (3,), a force and a
@@ -1061,8 +1061,8 @@ class Robot:
         damping : float, default 0
             Ratio of the viscous to the elastic modulus of the cables [s].
         elements, degree : int, optional
-            Elements of each cable, and the degree of the polynomial on each; if left out, few elements of a high
-            degree, and many straight ones of a cable from when it goes slack.
+            Elements of each cable, and the degree of the polynomial on each; if left out, few elements of a
+            high degree, and many straight ones of a cable from when it goes slack.
         tolerance : float, default 5e-9
             Error of a step that is accepted [m].
 
@@ -1239,8 +1239,8 @@ class Robot:
     ) -> Boundary:
         """Finds the boundary of the region that the cables hold under a payload, with the platform level.
 
-        Bisection moves it between the positions of a grid to where it is, so that a coarse grid does; a hole or
-        an island that lies between the positions is not seen.
+        Bisection moves it between the positions of a grid to where it is, so that a coarse grid does; a hole
+        or an island that lies between the positions is not seen.
 
         Parameters
         ----------
@@ -1360,9 +1360,9 @@ class Robot:
     ) -> Safety[None]:
         """Finds where the platform comes to rest when a cable breaks, and whether the others bear that.
 
-        The winches keep the lengths that hold the pose. The rest is the equilibrium downhill of the pose; on the
-        way there the platform swings and tensions are greater; with `swing` that motion is followed, without
-        damping. Arguments are of one case, or have a first axis of m cases.
+        The winches keep the lengths that hold the pose. The rest is the equilibrium downhill of the pose; on
+        the way there the platform swings and tensions are greater; with `swing` that motion is followed,
+        without damping. Arguments are of one case, or have a first axis of m cases.
 
         Parameters
         ----------
@@ -1379,8 +1379,8 @@ class Robot:
         factors : dict, optional
             Partial factors of a norm, all four: `permanent` multiplies the weight of platform and cables,
             `variable` payload, force and moment, `resistance` divides the breaking forces (a pair: the second
-            one for broken cables), `accidental` multiplies the loads where a cable is broken (a pair: weights,
-            other loads).
+            one for broken cables), `accidental` multiplies the loads where a cable is broken (a pair:
+            weights, other loads).
         free : sequence of str, optional
             Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
@@ -1438,13 +1438,13 @@ class Robot:
         free: Sequence[str] | None = None,
         slopes: bool = False,
     ) -> RestInWeather[float, None]:
-        """Finds where the platform rests in wind, in another temperature, with ice or creep, with winches that hold.
+        """Finds where the platform rests in wind, at another temperature, with ice or creep; the winches hold.
 
-        The lengths are those with which it rests at the pose under its own weight, without weather. The drag is
-        that of round ropes with a coefficient of 1.2 in air of 1.225 kg/m³; with others, take the wind that is
-        sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a `force`. `pose`, `wind` and the
-        load are of one case, or have a first axis of m cases: wind from all directions is a `wind` with a
-        row for each.
+        The lengths are those with which it rests at the pose under its own weight, without weather. The drag
+        is that of round ropes with a coefficient of 1.2 in air of 1.225 kg/m³; with others, take the wind
+        that is sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a `force`.
+        `pose`, `wind` and the load are of one case, or have a first axis of m cases: wind from all directions
+        is a `wind` with a row for each.
 
         Parameters
         ----------
@@ -1730,8 +1730,13 @@ class OtherSolution:
 
     def __new__(cls, *fields: Any) -> OtherSolution: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -1771,8 +1776,13 @@ class PathDeviations:
 
     def __new__(cls, *fields: Any) -> PathDeviations: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -1810,7 +1820,7 @@ class PathDeviations:
         """Of the frequency of the platform [Hz], (m,)."""
     @property
     def reasons(self) -> _Words:
-        """Why there is no answer, None where there is one, (m,)."""
+        """Why there is no answer, None if there is one, (m,)."""
 
 @final
 class Catenary(Generic[_N, _R]):
@@ -1824,8 +1834,13 @@ class Catenary(Generic[_N, _R]):
 
     def __new__(cls, *fields: Any) -> Catenary: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -1872,7 +1887,7 @@ class Catenary(Generic[_N, _R]):
         """Points (x, z) from exit to anchor point, at equal unstrained distances [m], (points, 2)."""
     @property
     def reasons(self) -> _R:
-        """Why there is no answer, None where there is one; None for one cable."""
+        """Why there is no answer, None if there is one; None for one cable."""
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
@@ -1887,8 +1902,13 @@ class InverseSolution(Generic[_B, _I, _R]):
 
     def __new__(cls, *fields: Any) -> InverseSolution: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -1943,12 +1963,12 @@ class InverseSolution(Generic[_B, _I, _R]):
         """Whether the platform stays there with these lengths; only with `free` coordinates."""
     @property
     def others(self) -> list[Any] | None:
-        """Further solutions with `free` coordinates, those within the limits first: a list of `OtherSolution`,
-        or for m poses a list of m such lists.
+        """Further solutions with `free` coordinates, those within the limits first: a list of
+        `OtherSolution`, or for m poses a list of m such lists.
         """
     @property
     def reasons(self) -> _R:
-        """Why there is no answer, None where there is one; None for one pose."""
+        """Why there is no answer, None if there is one; None for one pose."""
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
@@ -1963,8 +1983,13 @@ class DirectSolution(Generic[_N, _B, _I, _W, _R]):
 
     def __new__(cls, *fields: Any) -> DirectSolution[_N, _B, _I, _W, _R]: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -2033,7 +2058,7 @@ class DirectSolution(Generic[_N, _B, _I, _W, _R]):
         """Iterations of that method; 0 where there is no answer."""
     @property
     def reasons(self) -> _R:
-        """Why there is no answer, None where there is one; None for one case."""
+        """Why there is no answer, None if there is one; None for one case."""
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
@@ -2048,8 +2073,13 @@ class Deflection(Generic[_N, _B, _I, _W, _R]):
 
     def __new__(cls, *fields: Any) -> Deflection[_N, _B, _I, _W, _R]: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -2087,7 +2117,7 @@ class Deflection(Generic[_N, _B, _I, _W, _R]):
         """The platform with the load added."""
     @property
     def reasons(self) -> _R:
-        """Why there is no answer, None where there is one; None for one case."""
+        """Why there is no answer, None if there is one; None for one case."""
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
@@ -2096,14 +2126,20 @@ class Deflection(Generic[_N, _B, _I, _W, _R]):
 class Response(Generic[_R]):
     """How a platform on cables with mass moves when it is shaken, at k frequencies.
 
-    Complex amplitudes: the absolute value is the size, the angle the phase. The answer is of one pose, or of
-    m: then every field has a first axis of m, with NaN where there is no answer, and `reasons` says why.
+    Complex amplitudes: the absolute value is the size, the angle the phase. The answer is of one pose, or
+    of m: then every field has a first axis of m, with NaN where there is no answer, and `reasons` says
+    why.
     """
 
     def __new__(cls, *fields: Any) -> Response: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -2142,7 +2178,7 @@ class Response(Generic[_R]):
         """
     @property
     def reasons(self) -> _R:
-        """Why there is no answer, None where there is one; None for one pose."""
+        """Why there is no answer, None if there is one; None for one pose."""
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
@@ -2153,8 +2189,13 @@ class Motion:
 
     def __new__(cls, *fields: Any) -> Motion: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -2200,8 +2241,13 @@ class Move:
 
     def __new__(cls, *fields: Any) -> Move: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -2396,8 +2442,13 @@ class Modes(Generic[_N, _R]):
 
     def __new__(cls, *fields: Any) -> Modes: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -2443,7 +2494,7 @@ class Modes(Generic[_N, _R]):
         """Frequency up to which no motion is missing [Hz]."""
     @property
     def reasons(self) -> _R:
-        """Why there is no answer, None where there is one; None for one pose."""
+        """Why there is no answer, None if there is one; None for one pose."""
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
@@ -2458,8 +2509,13 @@ class MasslessModes(Generic[_R]):
 
     def __new__(cls, *fields: Any) -> MasslessModes: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -2499,7 +2555,7 @@ class MasslessModes(Generic[_R]):
         """
     @property
     def reasons(self) -> _R:
-        """Why there is no answer, None where there is one; None for one pose."""
+        """Why there is no answer, None if there is one; None for one pose."""
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
@@ -2510,14 +2566,19 @@ class Capacity(Generic[_N, _R]):
 
     The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
     answer, and `reasons` says why. A payload is -inf where a limit is passed even without one, and inf
-    where its weight does not pull at the cables. With `recomputed` the winches compute the tensions again,
-    with `kept` the lengths are kept.
+    where its weight does not pull at the cables. With `recomputed` the winches compute the tensions
+    again, with `kept` the lengths are kept.
     """
 
     def __new__(cls, *fields: Any) -> Capacity: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -2564,7 +2625,7 @@ class Capacity(Generic[_N, _R]):
         """How far the platform may tilt towards each azimuth [rad], (tilt,); (0,) if not asked for."""
     @property
     def reasons(self) -> _R:
-        """Why there is no answer, None where there is one; None for one pose."""
+        """Why there is no answer, None if there is one; None for one pose."""
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
@@ -2579,8 +2640,13 @@ class RestInWeather(Generic[_N, _R]):
 
     def __new__(cls, *fields: Any) -> RestInWeather: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -2646,7 +2712,7 @@ class RestInWeather(Generic[_N, _R]):
         """
     @property
     def reasons(self) -> _R:
-        """Why there is no answer, None where there is one; None for one case."""
+        """Why there is no answer, None if there is one; None for one case."""
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
@@ -2655,15 +2721,20 @@ class RestInWeather(Generic[_N, _R]):
 class Safety(Generic[_R]):
     """What becomes of the platform when cables break, while the winches stand still.
 
-    The k breaks are those of each cable alone, then those of all pairs, if asked for. The answer is of one
-    pose, or of m: then every field has a first axis of m, with NaN where there is no answer, and `reasons`
-    says why. Where no rest was found after a break, its numbers are NaN.
+    The k breaks are those of each cable alone, then those of all pairs, if asked for. The answer is of
+    one pose, or of m: then every field has a first axis of m, with NaN where there is no answer, and
+    `reasons` says why. Where no rest was found after a break, its numbers are NaN.
     """
 
     def __new__(cls, *fields: Any) -> Safety: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -2686,9 +2757,9 @@ class Safety(Generic[_R]):
         """Numbers of the broken cables, from 1: `"3"`, `"3+4"`; a list of k."""
     @property
     def endings(self) -> list[Any]:
-        """How each break ends: `held`, `overloaded` (another cable is beyond its greatest tension or breaking
-        force), `below_ground`, `turned_over` (by more than a right angle), or the kind of failure where no rest
-        was found; a list of k.
+        """How each break ends: `held`, `overloaded` (another cable is beyond its greatest tension or
+        breaking force), `below_ground`, `turned_over` (by more than a right angle), or the kind of
+        failure where no rest was found; a list of k.
         """
     @property
     def moved(self) -> _Floats:
@@ -2718,16 +2789,18 @@ class Safety(Generic[_R]):
         """Greatest tension of the other cables in that motion, at either end [N], (k,)."""
     @property
     def utilization(self) -> _Floats:
-        """Greatest utilization of a cable by partial factors, of the whole robot, then after each break, (k + 1,):
-        tension under the design loads times the factor of the resistance over breaking force, at rest and in
-        the motion that follows; NaN unless `factors` is given, and where it is not known.
+        """Greatest utilization of a cable by partial factors, of the whole robot, then after each break,
+        (k + 1,): tension under the design loads times the factor of the resistance over breaking force,
+        at rest and in the motion that follows; NaN unless `factors` is given, and where it is not known.
         """
     @property
     def utilization_reasons(self) -> list[Any]:
-        """Why a utilization is not known, empty where it is; a list of k + 1, empty unless `factors` is given."""
+        """Why a utilization is not known, empty where it is; a list of k + 1, empty unless `factors` is
+        given.
+        """
     @property
     def reasons(self) -> _R:
-        """Why there is no answer, None where there is one; None for one pose."""
+        """Why there is no answer, None if there is one; None for one pose."""
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
@@ -2738,8 +2811,13 @@ class Boundary:
 
     def __new__(cls, *fields: Any) -> Boundary: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -2786,8 +2864,13 @@ class Certificate(Generic[_N, _B, _R]):
 
     def __new__(cls, *fields: Any) -> Certificate: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -2825,7 +2908,7 @@ class Certificate(Generic[_N, _B, _R]):
         """Whether the exact equilibrium is proved stable."""
     @property
     def reasons(self) -> _R:
-        """Why there is no proof, None where there is one; None for one case."""
+        """Why there is no proof, None if there is one; None for one case."""
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `not_certified`, ..."""
@@ -2839,6 +2922,19 @@ class LoadEstimates:
 
     def __new__(cls, *fields: Any) -> LoadEstimates: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self, *, ax: Any = None) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
@@ -2858,8 +2954,9 @@ class LoadEstimates:
         """Its standard deviation [kg]."""
     @property
     def center(self) -> _Floats:
-        """Centre of the load in the frame of the platform, from P [m], (3,); NaN where the load is below three
-        times its standard deviation, or where the samples have not halved the uncertainty of its moment.
+        """Centre of the load in the frame of the platform, from P [m], (3,); NaN where the load is below
+        three times its standard deviation, or where the samples have not halved the uncertainty of its
+        moment.
         """
     @property
     def center_std(self) -> _Floats:
@@ -2893,7 +2990,9 @@ class LoadEstimates:
         """Cables that read no tension, as the model allows, (n,)."""
     @property
     def lost(self) -> _Bools:
-        """Cables that read no tension although the model has them taut, and no plausible load explains it, (n,)."""
+        """Cables that read no tension although the model has them taut, and no plausible load explains it,
+        (n,).
+        """
     @property
     def converged(self) -> Any:
         """Whether the model found a rest for the lengths; if not, the sample changed nothing."""
@@ -2905,9 +3004,9 @@ class LoadEstimates:
 class Observer:
     """Observes payload, centre of mass, modulus and broken cables from lengths and measured tensions.
 
-    It keeps the rest of the robot at the last sample, and its estimate with the covariance: recursive least squares
-    on the exact derivatives of the direct model. Sensors read the tensions at the platform; their errors are
-    independent from sample to sample but for a constant one, which `tare` removes.
+    It keeps the rest of the robot at the last sample, and its estimate with the covariance: recursive least
+    squares on the exact derivatives of the direct model. Sensors read the tensions at the platform; their
+    errors are independent from sample to sample but for a constant one, which `tare` removes.
 
     Parameters
     ----------
@@ -2968,8 +3067,8 @@ class Observer:
         consecutive: int = 3,
     ) -> Observer: ...
     def tare(self, lengths: ArrayLike, tensions: ArrayLike) -> LoadEstimates:
-        """Takes samples without load: the mean difference between tensions and model over all such samples is the
-        constant error of each sensor, which later samples subtract.
+        """Takes samples without load: the mean difference between tensions and model over all such samples is
+        the constant error of each sensor, which later samples subtract.
 
         Parameters
         ----------
@@ -3019,8 +3118,13 @@ class PathStates:
 
     def __new__(cls, *fields: Any) -> PathStates: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -3081,7 +3185,7 @@ class PathStates:
         """The equilibria with the load."""
     @property
     def reasons(self) -> list[str | None]:
-        """Why there is no answer, None where there is one, (m,)."""
+        """Why there is no answer, None if there is one, (m,)."""
     @property
     def kinds(self) -> list[str | None]:
         """The kind of each failure: `infeasible_tension`, ..."""
@@ -3096,8 +3200,13 @@ class Stiffness(Generic[_N, _B, _R]):
 
     def __new__(cls, *fields: Any) -> Stiffness: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -3148,7 +3257,7 @@ class Stiffness(Generic[_N, _B, _R]):
         """Characteristic length, which makes rotations comparable with translations [m]."""
     @property
     def reasons(self) -> _R:
-        """Why there is no answer, None where there is one; None for one pose."""
+        """Why there is no answer, None if there is one; None for one pose."""
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
@@ -3216,8 +3325,8 @@ class Derivatives(Generic[_N, _B, _I, _W, _R]):
     @property
     def amplitude(self) -> _Floats:
         """Derivatives of the amplitude at the frequency `shaken` with the load, in the worst direction
-        [m/N per unit], (k,). NaN without `shaken`, where two directions are shaken alike, and without inertia
-        of the platform.
+        [m/N per unit], (k,). NaN without `shaken`, where two directions are shaken alike, and without
+        inertia of the platform.
         """
     @property
     def magnitude_right(self) -> _Floats:
@@ -3248,7 +3357,7 @@ class Derivatives(Generic[_N, _B, _I, _W, _R]):
         """The deflection itself."""
     @property
     def reasons(self) -> _R:
-        """Why there is no answer, None where there is one; None for one case."""
+        """Why there is no answer, None if there is one; None for one case."""
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
@@ -3259,8 +3368,13 @@ class Observations(Generic[_N, _R]):
 
     def __new__(cls, *fields: Any) -> Observations: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -3286,7 +3400,7 @@ class Observations(Generic[_N, _R]):
         """Norm |dp| of the displacement [m]."""
     @property
     def reasons(self) -> _R:
-        """Why there is no answer, None where there is one; None for one robot."""
+        """Why there is no answer, None if there is one; None for one robot."""
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
@@ -3297,8 +3411,13 @@ class Workspace:
 
     def __new__(cls, *fields: Any) -> Workspace: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -3331,7 +3450,7 @@ class Workspace:
         """
     @property
     def reasons(self) -> list[str | None]:
-        """Why a position is not held, None where it is; m of them."""
+        """Why a position is not held, None if it is; m of them."""
     @property
     def least_tension(self) -> _Floats:
         """Least tension, without and with the load [N], (m,)."""
@@ -3374,7 +3493,7 @@ class Workspace:
         """
     @property
     def recomputed_reasons(self) -> list[str | None]:
-        """Why no tensions recomputed hold a position, None where they do; m of them."""
+        """Why no tensions recomputed hold a position, None if they do; m of them."""
     @property
     def recomputed_least_tension(self) -> _Floats:
         """Least tension, recomputed [N], (m,)."""

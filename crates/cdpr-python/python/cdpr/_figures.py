@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from .errors import InputError
+
 #: What is drawn of an answer: a field, its label, and what its elements are of.
 _DRAWN = {
     "Capacity": ("payload_recomputed", "greatest payload [kg]", "pose"),
@@ -12,6 +14,7 @@ _DRAWN = {
     "Deflection": ("magnitude", "displacement |dp| [m]", "case"),
     "DirectSolution": ("tensions", "tension [N]", "cable"),
     "InverseSolution": ("tensions", "tension [N]", "cable"),
+    "MasslessModes": ("frequencies_hz", "natural frequency [Hz]", "motion"),
     "Modes": ("frequencies_hz", "natural frequency [Hz]", "motion"),
     "OtherSolution": ("tensions", "tension [N]", "cable"),
     "PathDeviations": ("tensions", "standard deviation of the tension [N]", "cable"),
@@ -22,30 +25,35 @@ _DRAWN = {
 }
 
 
-def figure_of(answer: Any) -> Any:
-    """Draws an answer: of one case a bar for each element, of several a line over the cases."""
+def axes_of(ax: Any, **settings: Any) -> Any:
+    """Where to draw: axes that are given, or those of a new figure with such settings."""
+    if ax is not None:
+        return ax
     from matplotlib import pyplot
 
-    figure = pyplot.figure(layout="constrained")
+    return pyplot.subplots(layout="constrained", **settings)[1]
+
+
+def figure_of(answer: Any, ax: Any = None) -> Any:
+    """Draws an answer: of one case a bar for each element, of several a line over the cases."""
     kind = type(answer).__name__
+    if kind == "Motion" and ax is None:
+        return _motion(answer)
     if kind == "Boundary" and len(answer.triangles) > 0:
-        _surface(answer, figure.add_subplot(projection="3d"))
-        return figure
-    if kind == "Motion":
-        _motion(answer, figure)
-        return figure
-    axis = figure.add_subplot()
+        return _surface(answer, ax)
+    axis = axes_of(ax)
     special = _SPECIAL.get(kind)
     if special is not None:
         special(answer, axis)
-        return figure
-    field, label, elements = _DRAWN[kind]
-    single = getattr(answer, "reasons", None) is None
-    _draw(axis, getattr(answer, field), (label, elements), single=single)
-    return figure
+    else:
+        field, label, elements = _DRAWN[kind]
+        single = getattr(answer, "reasons", None) is None
+        draw(axis, getattr(answer, field), (label, elements), single=single)
+    return axis.figure
 
 
-def _draw(axis: Any, values: Any, labels: tuple[str, str], *, single: bool) -> None:
+def draw(axis: Any, values: Any, labels: tuple[str, str], *, single: bool) -> None:
+    """Draws bars of the elements of one case, or lines over several, with the labels of values and elements."""
     import numpy
 
     array = numpy.atleast_1d(values)
@@ -74,11 +82,11 @@ def _shape(answer: Any, axis: Any) -> None:
     axis.set_ylabel("z [m]")
 
 
-def _motion(answer: Any, figure: Any) -> None:
+def _motion(answer: Any) -> Any:
     """Motion of P and turn from the rest, and the tensions at the platform, over the time."""
     import numpy
 
-    rest, (place, turn, pull) = answer.summary.pose, figure.subplots(3, sharex=True)
+    rest, (place, turn, pull) = answer.summary.pose, axes_of(None, nrows=3, sharex=True)
     for k, name in enumerate("xyz"):
         place.plot(answer.times, 1e3 * (answer.poses[:, k] - rest[k]), label=name)
     share = numpy.abs(answer.poses[:, 3:] @ rest[3:])
@@ -87,6 +95,7 @@ def _motion(answer: Any, figure: Any) -> None:
     place.set_ylabel("from the rest [mm]")
     turn.set_ylabel("turn [deg]")
     _pulls(answer, pull)
+    return pull.figure
 
 
 def _pulls(answer: Any, axis: Any) -> None:
@@ -105,6 +114,15 @@ def _amplitudes(answer: Any, axis: Any) -> None:
     for frequencies, amplitudes in curves:
         axis.semilogy(frequencies, 1e3 * amplitudes)
     axis.set(xlabel="frequency [Hz]", ylabel="largest amplitude [mm/N]")
+
+
+def _payload(answer: Any, axis: Any) -> None:
+    """The payload with its standard deviation over the samples."""
+    import numpy
+
+    known = numpy.atleast_1d(answer.payload)
+    axis.errorbar(numpy.arange(1, len(known) + 1), known, numpy.atleast_1d(answer.payload_std), fmt=".-")
+    axis.set(xlabel="sample", ylabel="payload [kg]")
 
 
 def _distribution(answer: Any, axis: Any) -> None:
@@ -156,19 +174,25 @@ def _boundary(answer: Any, axis: Any) -> None:
     axis.set_ylabel(f"{'xyz'[up]} [m]")
 
 
-def _surface(answer: Any, axis: Any) -> None:
+def _surface(answer: Any, ax: Any) -> Any:
     """The triangles of a region in space."""
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
+    axis = axes_of(ax, subplot_kw={"projection": "3d"})
+    if axis.name != "3d":
+        raise InputError(f'ax has the projection {axis.name!r}: expected "3d" for a region in space')
     axis.add_collection3d(Poly3DCollection(answer.triangles, edgecolor="k", linewidth=0.3, alpha=0.5))
     points = answer.triangles.reshape(-1, 3)
     axis.set(**{f"{name}lim": (low, high) for name, low, high in zip("xyz", points.min(axis=0), points.max(axis=0))})
     axis.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]", aspect="equal")
+    return axis.figure
 
 
 _SPECIAL: dict[str, Callable[[Any, Any], None]] = {
     "Boundary": _boundary,
     "Catenary": _shape,
+    "LoadEstimates": _payload,
+    "Motion": _pulls,
     "Move": _pulls,
     "Observations": _distribution,
     "Response": _amplitudes,

@@ -116,7 +116,7 @@ def names(given: Any) -> Optional[list[str]]:
 
 
 def _cell(value: Any) -> Any:
-    """A cell: numbers to the last bit, nothing where there is none."""
+    """A cell: numbers to the last bit, nothing for None and NaN."""
     return "" if value is None or value != value else repr(value) if isinstance(value, float) else value
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Callable, Optional, TypeVar, Union, overload
 
+from ._figures import axes_of
+
 if TYPE_CHECKING:
     import numpy
     from numpy.typing import NDArray
@@ -13,7 +15,7 @@ _T = TypeVar("_T")
 
 
 class Column:
-    """An array with an element for each row, NaN where there is none; `path` leads to it in a row."""
+    """An array with an element for each row, NaN for a row without one; `path` leads to it in a row."""
 
     def __init__(self, path: str, doc: str, rows: str = "inputs") -> None:
         self.path, self.rows, self.__doc__ = [key for key in path.split(".") if key], rows, doc
@@ -109,13 +111,15 @@ class Table:
                 columns[name] = getattr(self, name)
         return pandas.DataFrame(columns, index=pandas.Index(self.inputs, name=self._name))
 
-    def plot(self, most: int = 20) -> Any:
+    def plot(self, most: int = 20, *, ax: Any = None) -> Any:
         """Draws bars of the leading inputs with their intervals.
 
         Parameters
         ----------
         most : int, default 20
             Greatest number of inputs.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
@@ -123,10 +127,9 @@ class Table:
             The figure.
         """
         import numpy
-        from matplotlib import pyplot
 
         order = self._leading(most)[::-1]
-        figure, axis = pyplot.subplots(figsize=(6.4, 1.2 + 0.3 * len(order)), layout="constrained")
+        axis = axes_of(ax, figsize=(6.4, 1.2 + 0.3 * len(order)))
         height = 0.8 / len(self._drawn)
         for k, name in enumerate(self._drawn):
             values, at = getattr(self, name)[order], numpy.arange(len(order)) - k * height
@@ -136,7 +139,7 @@ class Table:
             axis.barh(at, values, height, xerr=error, label=name.replace("_", " "))
         axis.set_yticks(numpy.arange(len(order)) - 0.4 + height / 2, [self.inputs[k] for k in order])
         axis.legend()
-        return figure
+        return axis.figure
 
     def __repr__(self) -> str:
         columns = {name: getattr(self, name) for name in self._drawn}

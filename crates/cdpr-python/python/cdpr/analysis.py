@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Union
 import numpy
 
 from ._core import analyse as _analyse
+from ._figures import axes_of
 from ._table import Column, Interval, Table, by_output, count_of
 
 if TYPE_CHECKING:
@@ -121,25 +122,27 @@ class Analysis(Table):
         given = self.content["limit"] is not None
         return frame if given else frame.drop(columns=["target", "target_p_value"])
 
-    def plot(self, most: int = 9) -> Any:
+    def plot(self, most: int = 9, *, ax: Any = None) -> Any:
         """Draws the output against the leading inputs, and returns the matplotlib Figure.
 
         Parameters
         ----------
         most : int, default 9
             Greatest number of inputs.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw the leading input alone; a new figure of all if left out.
 
         Returns
         -------
         matplotlib.figure.Figure
             The figure.
         """
-        from matplotlib import pyplot
+        import numpy
 
-        order = self._leading(most)
+        order = self._leading(most if ax is None else 1)
         columns = min(3, len(order))
         rows = -(-len(order) // columns)
-        figure, axes = pyplot.subplots(rows, columns, squeeze=False, sharey=True, layout="constrained")
+        axes = numpy.reshape(axes_of(ax, nrows=rows, ncols=columns, sharey=True), (rows, columns))
         for axis, k in zip(axes.flat, order):
             axis.plot(self._x[:, k], self._y, ".", markersize=2)
             axis.set_xlabel(self.inputs[k])
@@ -147,7 +150,7 @@ class Analysis(Table):
             axis.set_axis_off()
         for axis in axes[:, 0]:
             axis.set_ylabel(self.output)
-        return figure
+        return axes[0, 0].figure
 
     def __repr__(self) -> str:
         of = self.summary

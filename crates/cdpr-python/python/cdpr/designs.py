@@ -25,12 +25,19 @@ from typing import TYPE_CHECKING, Any, Optional
 
 from . import _core, _inputs
 from ._core import Robot
+from ._figures import axes_of, draw
 
 if TYPE_CHECKING:
     import numpy
     from numpy.typing import NDArray
 
 __all__ = ["Designed", "DesignFront", "design", "design_front"]
+
+#: Units of the outputs; a cost is in any currency.
+_UNITS = {"deflection": "mm", "position": "mm", "stiffness": "N/m", "tension": "N", "length": "m"}
+_UNITS |= {"frequency": "Hz", "platform_frequency": "Hz"}
+#: Outputs that are a single number for all poses.
+_OF_ALL_POSES = ("length", "cost")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -102,6 +109,25 @@ class Designed:
         columns = ["name", "unit", "from", "to", "bound", "per_unit"]
         return pandas.DataFrame(best["variables"], columns=columns).set_index("name")
 
+    def plot(self, *, ax: Any = None) -> Any:
+        """Draws the output at each pose and the objective before, and returns the matplotlib Figure.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
+        axis = axes_of(ax)
+        draw(axis, self.outputs, (_label(self.content["output"]), "pose"), single=True)
+        axis.axhline(self.before, color="k", linestyle="--", label=f"{self.content['over']} before")
+        axis.legend()
+        return axis.figure
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class DesignFront:
@@ -150,10 +176,35 @@ class DesignFront:
         import pandas
 
         pairs = zip(self.content["over"], self.content["outputs"])
-        names = [output if output in ("length", "cost") else f"{over}_{output}" for over, output in pairs]
+        names = [output if output in _OF_ALL_POSES else f"{over}_{output}" for over, output in pairs]
         frame = pandas.DataFrame(self.objectives, columns=names)
         frame["exchange"], frame["optimal"] = self.exchange, self.optimal
         return frame.join(pandas.DataFrame(self.values, columns=self.names))
+
+    def plot(self, *, ax: Any = None) -> Any:
+        """Draws the second objective over the first one, and returns the matplotlib Figure.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
+        axis, (first, second) = axes_of(ax), map(_label, self.content["outputs"], self.content["over"])
+        axis.plot(*self.objectives.T, "o-")
+        axis.set(xlabel=first, ylabel=second)
+        return axis.figure
+
+
+def _label(output: str, over: str = "") -> str:
+    """The label of an axis: an output with its unit."""
+    unit = _UNITS.get(output)
+    words = f"{'' if output in _OF_ALL_POSES else over} {output.replace('_', ' ')}".strip()
+    return words if unit is None else f"{words} [{unit}]"
 
 
 def design(robot: Robot, design: _inputs.Document, *, threads: Optional[int] = None) -> Designed:

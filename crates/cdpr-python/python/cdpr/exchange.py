@@ -66,7 +66,7 @@ class Note(NamedTuple):
     kind : str
         "assumed", "questioned" or "no place for".
     place : (str, int) or None
-        File and line, None where it is about no place in a file.
+        File and line; None without a place in a file.
     text : str
         A sentence.
     """

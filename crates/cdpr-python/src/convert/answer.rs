@@ -70,12 +70,21 @@ macro_rules! plotted {
         impl $class {
             /// Draws the answer: of one case a bar for each element, of several a line over the cases.
             ///
+            /// Parameters
+            /// ----------
+            /// ax : matplotlib.axes.Axes, optional
+            ///     Where to draw; a new figure if left out.
+            ///
             /// Returns
             /// -------
             /// matplotlib.figure.Figure
             ///     The figure.
-            fn plot<'py>(slf: &pyo3::Bound<'py, Self>) -> pyo3::PyResult<pyo3::Bound<'py, pyo3::PyAny>> {
-                slf.py().import("cdpr._figures")?.call_method1("figure_of", (slf,))
+            #[pyo3(signature = (*, ax = None))]
+            fn plot<'py>(
+                slf: &pyo3::Bound<'py, Self>,
+                ax: Option<&pyo3::Bound<'py, pyo3::PyAny>>,
+            ) -> pyo3::PyResult<pyo3::Bound<'py, pyo3::PyAny>> {
+                slf.py().import("cdpr._figures")?.call_method1("figure_of", (slf, ax))
             }
         }
     };

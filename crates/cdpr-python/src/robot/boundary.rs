@@ -36,8 +36,8 @@ plotted!(Boundary);
 impl Robot {
     /// Finds the boundary of the region that the cables hold under a payload, with the platform level.
     ///
-    /// Bisection moves it between the positions of a grid to where it is, so that a coarse grid does; a hole or
-    /// an island that lies between the positions is not seen.
+    /// Bisection moves it between the positions of a grid to where it is, so that a coarse grid does; a hole
+    /// or an island that lies between the positions is not seen.
     ///
     /// Parameters
     /// ----------

@@ -27,7 +27,7 @@ answer! {
         least_stiffness: Py<PyAny>,
         /// Whether the exact equilibrium is proved stable.
         stable: Py<PyAny>,
-        /// Why there is no proof, None where there is one; None for one case.
+        /// Why there is no proof, None if there is one; None for one case.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `not_certified`, ...
         kinds: Py<PyAny>,

@@ -187,9 +187,9 @@ impl Robot {
 
     /// Makes a robot with other values of some parameters [SI units]: `{"mass": 185.0, "a1.x": 0.25}`.
     ///
-    /// Names are those in `parameters`. `linear_density` and `youngs_modulus` are those of the first cable, as
-    /// there; the other cables change by as much. Offsets dt belong to a set-point and not to a robot: they
-    /// can only be zero here; `deflection` takes them as `tension_offsets`.
+    /// Names are those in `parameters`. `linear_density` and `youngs_modulus` are those of the first cable,
+    /// as there; the other cables change by as much. Offsets dt belong to a set-point and not to a robot:
+    /// they can only be zero here; `deflection` takes them as `tension_offsets`.
     ///
     /// Parameters
     /// ----------

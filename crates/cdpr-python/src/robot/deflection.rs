@@ -27,7 +27,7 @@ answer! {
         unloaded: Py<DirectSolution>,
         /// The platform with the load added.
         loaded: Py<DirectSolution>,
-        /// Why there is no answer, None where there is one; None for one case.
+        /// Why there is no answer, None if there is one; None for one case.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,

@@ -44,8 +44,8 @@ answer! {
         /// motions have it, and without inertia of the platform.
         frequency: Py<PyAny>,
         /// Derivatives of the amplitude at the frequency `shaken` with the load, in the worst direction
-        /// [m/N per unit], (k,). NaN without `shaken`, where two directions are shaken alike, and without inertia
-        /// of the platform.
+        /// [m/N per unit], (k,). NaN without `shaken`, where two directions are shaken alike, and without
+        /// inertia of the platform.
         amplitude: Py<PyAny>,
         /// Right derivatives of |dp| [m per unit], (k,).
         magnitude_right: Py<PyAny>,
@@ -65,7 +65,7 @@ answer! {
         amplitude_right: Py<PyAny>,
         /// The deflection itself.
         deflection: Py<Deflection>,
-        /// Why there is no answer, None where there is one; None for one case.
+        /// Why there is no answer, None if there is one; None for one case.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,

@@ -47,7 +47,7 @@ answer! {
         method: Py<PyAny>,
         /// Iterations of that method; 0 where there is no answer.
         iterations: Py<PyAny>,
-        /// Why there is no answer, None where there is one; None for one case.
+        /// Why there is no answer, None if there is one; None for one case.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,

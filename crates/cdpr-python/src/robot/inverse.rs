@@ -45,10 +45,10 @@ answer! {
         pose: Py<PyAny>,
         /// Whether the platform stays there with these lengths; only with `free` coordinates.
         stable: Py<PyAny>,
-        /// Further solutions with `free` coordinates, those within the limits first: a list of `OtherSolution`,
-        /// or for m poses a list of m such lists.
+        /// Further solutions with `free` coordinates, those within the limits first: a list of
+        /// `OtherSolution`, or for m poses a list of m such lists.
         others: Py<PyAny>,
-        /// Why there is no answer, None where there is one; None for one pose.
+        /// Why there is no answer, None if there is one; None for one pose.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,

@@ -18,7 +18,7 @@ answer! {
         displacement: Py<PyAny>,
         /// Norm |dp| of the displacement [m].
         magnitude: Py<PyAny>,
-        /// Why there is no answer, None where there is one; None for one robot.
+        /// Why there is no answer, None if there is one; None for one robot.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,

@@ -44,7 +44,7 @@ answer! {
         std: Option<Py<PathDeviations>>,
         /// The equilibria with the load.
         loaded: Py<DirectSolution>,
-        /// Why there is no answer, None where there is one, (m,).
+        /// Why there is no answer, None if there is one, (m,).
         reasons: Py<PyAny>,
         /// The kind of each failure: `infeasible_tension`, ...
         kinds: Py<PyAny>,
@@ -69,7 +69,7 @@ answer! {
         least_stiffness: Py<PyAny>,
         /// Of the frequency of the platform [Hz], (m,).
         platform_frequency: Py<PyAny>,
-        /// Why there is no answer, None where there is one, (m,).
+        /// Why there is no answer, None if there is one, (m,).
         reasons: Py<PyAny>,
     }
 }

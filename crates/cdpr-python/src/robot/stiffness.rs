@@ -36,7 +36,7 @@ answer! {
         stable: Py<PyAny>,
         /// Characteristic length, which makes rotations comparable with translations [m].
         characteristic_length: Py<PyAny>,
-        /// Why there is no answer, None where there is one; None for one pose.
+        /// Why there is no answer, None if there is one; None for one pose.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,

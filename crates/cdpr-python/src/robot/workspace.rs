@@ -26,7 +26,7 @@ answer! {
         /// The lengths are kept under the load. A position is `beyond_limits` where the load takes a tension
         /// out of the limits.
         status: Vec<String>,
-        /// Why a position is not held, None where it is; m of them.
+        /// Why a position is not held, None if it is; m of them.
         reasons: Vec<Option<String>>,
         /// Least tension, without and with the load [N], (m,).
         least_tension: Py<PyAny>,
@@ -54,7 +54,7 @@ answer! {
         /// `held` where tensions recomputed hold the position under the load, or the kind of failure;
         /// None without a load; m of them.
         recomputed_status: Vec<Option<String>>,
-        /// Why no tensions recomputed hold a position, None where they do; m of them.
+        /// Why no tensions recomputed hold a position, None if they do; m of them.
         recomputed_reasons: Vec<Option<String>>,
         /// Least tension, recomputed [N], (m,).
         recomputed_least_tension: Py<PyAny>,

@@ -1,5 +1,5 @@
-//! Designs of experiments and their estimators. The classes of `designs.py` hold these; what is estimated goes
-//! to them as JSON.
+//! Designs of experiments and their estimators. The classes of `designs.py` hold these; what is estimated
+//! goes to them as JSON.
 
 use crate::convert::{Answer, Numbers, Raised, run, to_json, whole};
 use crate::sensitivity::expansion::Expansion;

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Optional
 
 from .. import _core, _inputs
 from .._core import Robot
+from .._figures import axes_of
 from .._table import Column, Table, Value
 
 if TYPE_CHECKING:
@@ -116,24 +117,27 @@ class LoadCycle:
         columns.update((f"tensions_{k + 1}", column) for k, column in enumerate(self.tensions.T))
         return pandas.DataFrame(columns)
 
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the payload over the way down, and returns the matplotlib Figure.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
         matplotlib.figure.Figure
             The figure.
         """
-        from matplotlib import pyplot
-
-        figure, axis = pyplot.subplots(layout="constrained")
+        axis = axes_of(ax)
         down, turn = 1e3 * (self.positions[0, 2] - self.positions[:, 2]), self.content["turn"]
         axis.plot(down[:turn], self.payloads[:turn], label="payload put on")
         axis.plot(down[turn:], self.payloads[turn:], label="payload taken off")
         axis.set_xlabel("way down [mm]")
         axis.set_ylabel("payload [kg]")
         axis.legend()
-        return figure
+        return axis.figure
 
     def __repr__(self) -> str:
         return (

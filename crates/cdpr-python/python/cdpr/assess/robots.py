@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, Optional, Union
 
 from .. import _core, _inputs
 from .._core import Robot
+from .._figures import axes_of
 from .._table import Column, Table, Value
 
 
@@ -204,21 +205,24 @@ class Robustness:
         rows = [{"protocol": name, **row} for name, of in self.content["protocols"].items() for row in of["rows"]]
         return pandas.DataFrame(rows)
 
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the share of solves in which each protocol found the true pose; returns the matplotlib Figure.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
         matplotlib.figure.Figure
             The figure.
         """
-        from matplotlib import pyplot
-
-        figure, axis = pyplot.subplots(layout="constrained")
+        axis = axes_of(ax)
         found = [self.found(name) for name in self.protocols]
         axis.bar(self.protocols, [100 * true / max(solves, 1) for true, solves in found])
         axis.set_ylabel("true pose found [%]")
-        return figure
+        return axis.figure
 
     def __repr__(self) -> str:
         parts = ["{} {} of {}".format(name, *self.found(name)) for name in self.protocols]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 
 from .. import _core, _inputs
 from .._core import Robot
+from .._figures import axes_of
 from .._table import Column, Table, Value
 
 if TYPE_CHECKING:
@@ -16,20 +17,23 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 
-@dataclass(frozen=True)
-class Combination:
-    """A combination of uncertain parameters, and how well measurements identify it.
+class Combination(Table):
+    """A combination of k uncertain parameters, and how well measurements identify it."""
 
-    Attributes
-    ----------
-    signal_to_noise : float
-        Its standard deviation before over that of the noise in it.
-    weights : dict of float
-        Weight of each parameter, in its standard deviations.
-    """
+    _rows, _name, _drawn, _module = "parameters", "parameter", ("weight",), "cdpr.calibration"
+    _shown = ("signal_to_noise",)
 
-    signal_to_noise: float
-    weights: dict[str, float]
+    weight = Column("weight", "Weight of each parameter, in its standard deviations, (k,).", "parameters")
+    signal_to_noise = Value("signal_to_noise", "Its standard deviation before over that of the noise in it.")
+
+    def __init__(self, content: dict[str, Any]) -> None:
+        rows = [{"parameter": name, "weight": value} for name, value in content["weights"].items()]
+        super().__init__({**content, "parameters": rows})
+
+    @property
+    def weights(self) -> dict[str, float]:
+        """The weights by the names of the parameters."""
+        return dict(self.content["weights"])
 
 
 class Identified(Table):
@@ -45,12 +49,12 @@ class Identified(Table):
     @property
     def identifiable(self) -> list[Combination]:
         """Combinations that the measurements identify, the best first."""
-        return [Combination(**of) for of in self.content["identifiable"]]
+        return [Combination(of) for of in self.content["identifiable"]]
 
     @property
     def unidentifiable(self) -> list[Combination]:
         """Combinations that they do not."""
-        return [Combination(**of) for of in self.content["unidentifiable"]]
+        return [Combination(of) for of in self.content["unidentifiable"]]
 
 
 def identify(
@@ -183,17 +187,20 @@ class Plan:
         places = pandas.DataFrame(self.poses, columns=["x", "y", "z", "qw", "qx", "qy", "qz"])
         return places.join(pandas.DataFrame(self.content["growing"]))
 
-    def plot(self) -> Any:
+    def plot(self, *, ax: Any = None) -> Any:
         """Draws the information over the number of poses, and returns the matplotlib Figure.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
 
         Returns
         -------
         matplotlib.figure.Figure
             The figure.
         """
-        from matplotlib import pyplot
-
-        figure, axis = pyplot.subplots(layout="constrained")
+        axis = axes_of(ax)
         counts = range(1, len(self.growing) + 1)
         axis.plot(counts, [of.information_bits for of in self.growing], ".-", label="plan")
         for name, of in (("random", self.random), ("outermost", self.outermost)):
@@ -201,7 +208,7 @@ class Plan:
         axis.set_xlabel("poses")
         axis.set_ylabel("information [bit]")
         axis.legend()
-        return figure
+        return axis.figure
 
     def __repr__(self) -> str:
         bits = [of.information_bits for of in (self.quality, self.random)]

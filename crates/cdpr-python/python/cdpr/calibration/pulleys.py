@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Optional
 
 from .. import _core, _inputs
 from .._core import Robot
+from .._figures import axes_of
 from ..assess.friction import FrictionFit
 
 if TYPE_CHECKING:
@@ -44,6 +45,39 @@ class PulleyCalibration(FrictionFit):
 
         rows = self.content["readings"]
         return {name: numpy.array([row[name] for row in rows]) for name in rows[0]}
+
+    def to_dataframe(self) -> Any:
+        """Returns the readings as a pandas.DataFrame with a row for each.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
+        import pandas
+
+        return pandas.DataFrame(self.readings)
+
+    def plot(self, *, ax: Any = None) -> Any:
+        """Draws what friction adds to each tension, as it is measured and modelled; returns the matplotlib Figure.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
+        axis, of = axes_of(ax), self.readings
+        for name, mark in (("measured", "."), ("modelled", "x")):
+            axis.plot(of["platform_n"], of[f"{name}_n"] - of["platform_n"], mark, label=name)
+        axis.set_xlabel("tension at the platform [N]")
+        axis.set_ylabel("tension at the winch less that [N]")
+        axis.legend()
+        return axis.figure
 
 
 def calibrate_pulleys(

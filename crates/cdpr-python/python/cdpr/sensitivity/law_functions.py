@@ -123,7 +123,7 @@ def std(law: Law) -> float:
 
 
 def poincare_constant(law: Law) -> Optional[float]:
-    """Returns the least C with Var g <= C E g'^2 for all g of the variable; None where there is none.
+    """Returns the least C with Var g <= C E g'^2 for all g of the variable; None without such a C.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ def poincare_constant(law: Law) -> Optional[float]:
     Returns
     -------
     Optional
-        The constant; None where there is none.
+        The constant; None without one.
 
     Examples
     --------

@@ -13,8 +13,8 @@ answer! {
     ///
     /// The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
     /// answer, and `reasons` says why. A payload is -inf where a limit is passed even without one, and inf
-    /// where its weight does not pull at the cables. With `recomputed` the winches compute the tensions again,
-    /// with `kept` the lengths are kept.
+    /// where its weight does not pull at the cables. With `recomputed` the winches compute the tensions
+    /// again, with `kept` the lengths are kept.
     #[pyclass(frozen, get_all, module = "cdpr")]
     pub(crate) struct Capacity {
         /// Greatest mass at the centre of mass [kg].
@@ -35,7 +35,7 @@ answer! {
         nearest_to_platform: Py<PyAny>,
         /// How far the platform may tilt towards each azimuth [rad], (tilt,); (0,) if not asked for.
         tilt: Py<PyAny>,
-        /// Why there is no answer, None where there is one; None for one pose.
+        /// Why there is no answer, None if there is one; None for one pose.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,

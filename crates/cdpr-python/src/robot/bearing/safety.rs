@@ -15,16 +15,16 @@ use std::collections::BTreeMap;
 answer! {
     /// What becomes of the platform when cables break, while the winches stand still.
     ///
-    /// The k breaks are those of each cable alone, then those of all pairs, if asked for. The answer is of one
-    /// pose, or of m: then every field has a first axis of m, with NaN where there is no answer, and `reasons`
-    /// says why. Where no rest was found after a break, its numbers are NaN.
+    /// The k breaks are those of each cable alone, then those of all pairs, if asked for. The answer is of
+    /// one pose, or of m: then every field has a first axis of m, with NaN where there is no answer, and
+    /// `reasons` says why. Where no rest was found after a break, its numbers are NaN.
     #[pyclass(frozen, get_all, module = "cdpr")]
     pub(crate) struct Safety {
         /// Numbers of the broken cables, from 1: `"3"`, `"3+4"`; a list of k.
         broken: Py<PyAny>,
-        /// How each break ends: `held`, `overloaded` (another cable is beyond its greatest tension or breaking
-        /// force), `below_ground`, `turned_over` (by more than a right angle), or the kind of failure where no rest
-        /// was found; a list of k.
+        /// How each break ends: `held`, `overloaded` (another cable is beyond its greatest tension or
+        /// breaking force), `below_ground`, `turned_over` (by more than a right angle), or the kind of
+        /// failure where no rest was found; a list of k.
         endings: Py<PyAny>,
         /// How far the platform moves [m], (k,).
         moved: Py<PyAny>,
@@ -43,13 +43,14 @@ answer! {
         swing_moved: Py<PyAny>,
         /// Greatest tension of the other cables in that motion, at either end [N], (k,).
         peak_tension: Py<PyAny>,
-        /// Greatest utilization of a cable by partial factors, of the whole robot, then after each break, (k + 1,):
-        /// tension under the design loads times the factor of the resistance over breaking force, at rest and in
-        /// the motion that follows; NaN unless `factors` is given, and where it is not known.
+        /// Greatest utilization of a cable by partial factors, of the whole robot, then after each break,
+        /// (k + 1,): tension under the design loads times the factor of the resistance over breaking force,
+        /// at rest and in the motion that follows; NaN unless `factors` is given, and where it is not known.
         utilization: Py<PyAny>,
-        /// Why a utilization is not known, empty where it is; a list of k + 1, empty unless `factors` is given.
+        /// Why a utilization is not known, empty where it is; a list of k + 1, empty unless `factors` is
+        /// given.
         utilization_reasons: Py<PyAny>,
-        /// Why there is no answer, None where there is one; None for one pose.
+        /// Why there is no answer, None if there is one; None for one pose.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,
@@ -58,7 +59,8 @@ answer! {
 
 plotted!(Safety);
 
-/// A factor, or one for the whole robot and one for broken cables, or one for weights and one for other loads.
+/// A factor, or one for the whole robot and one for broken cables, or one for weights and one for other
+/// loads.
 #[derive(FromPyObject)]
 pub(crate) enum Factor {
     One(f64),
@@ -156,9 +158,9 @@ fn name(broken: &Broken) -> String {
 impl Robot {
     /// Finds where the platform comes to rest when a cable breaks, and whether the others bear that.
     ///
-    /// The winches keep the lengths that hold the pose. The rest is the equilibrium downhill of the pose; on the
-    /// way there the platform swings and tensions are greater; with `swing` that motion is followed, without
-    /// damping. Arguments are of one case, or have a first axis of m cases.
+    /// The winches keep the lengths that hold the pose. The rest is the equilibrium downhill of the pose; on
+    /// the way there the platform swings and tensions are greater; with `swing` that motion is followed,
+    /// without damping. Arguments are of one case, or have a first axis of m cases.
     ///
     /// Parameters
     /// ----------
@@ -175,8 +177,8 @@ impl Robot {
     /// factors : dict, optional
     ///     Partial factors of a norm, all four: `permanent` multiplies the weight of platform and cables,
     ///     `variable` payload, force and moment, `resistance` divides the breaking forces (a pair: the second
-    ///     one for broken cables), `accidental` multiplies the loads where a cable is broken (a pair: weights,
-    ///     other loads).
+    ///     one for broken cables), `accidental` multiplies the loads where a cable is broken (a pair:
+    ///     weights, other loads).
     /// free : sequence of str, optional
     ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.

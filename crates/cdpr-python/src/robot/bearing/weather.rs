@@ -48,7 +48,7 @@ answer! {
         /// Derivatives of the displacement by each input [m per unit], (3, k), with NaN where one does not
         /// exist; None unless they are requested.
         slopes: Py<PyAny>,
-        /// Why there is no answer, None where there is one; None for one case.
+        /// Why there is no answer, None if there is one; None for one case.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,
@@ -66,13 +66,13 @@ struct Found {
 
 #[pymethods]
 impl Robot {
-    /// Finds where the platform rests in wind, in another temperature, with ice or creep, with winches that hold.
+    /// Finds where the platform rests in wind, at another temperature, with ice or creep; the winches hold.
     ///
-    /// The lengths are those with which it rests at the pose under its own weight, without weather. The drag is
-    /// that of round ropes with a coefficient of 1.2 in air of 1.225 kg/m³; with others, take the wind that is
-    /// sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a `force`. `pose`, `wind` and the
-    /// load are of one case, or have a first axis of m cases: wind from all directions is a `wind` with a
-    /// row for each.
+    /// The lengths are those with which it rests at the pose under its own weight, without weather. The drag
+    /// is that of round ropes with a coefficient of 1.2 in air of 1.225 kg/m³; with others, take the wind
+    /// that is sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a `force`.
+    /// `pose`, `wind` and the load are of one case, or have a first axis of m cases: wind from all directions
+    /// is a `wind` with a row for each.
     ///
     /// Parameters
     /// ----------

@@ -29,7 +29,7 @@ answer! {
         /// The lowest frequency of each cable between ends at rest [Hz], (n,); NaN for one without mass.
         /// Where it is less than twice as high, the cables' mass changes the motions: see `Robot.modes`.
         cable_frequencies_hz: Py<PyAny>,
-        /// Why there is no answer, None where there is one; None for one pose.
+        /// Why there is no answer, None if there is one; None for one pose.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,
@@ -63,7 +63,7 @@ answer! {
         rotations: Py<PyAny>,
         /// Frequency up to which no motion is missing [Hz].
         complete_below_hz: Py<PyAny>,
-        /// Why there is no answer, None where there is one; None for one pose.
+        /// Why there is no answer, None if there is one; None for one pose.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,

@@ -14,8 +14,9 @@ use pyo3::prelude::*;
 answer! {
     /// How a platform on cables with mass moves when it is shaken, at k frequencies.
     ///
-    /// Complex amplitudes: the absolute value is the size, the angle the phase. The answer is of one pose, or of
-    /// m: then every field has a first axis of m, with NaN where there is no answer, and `reasons` says why.
+    /// Complex amplitudes: the absolute value is the size, the angle the phase. The answer is of one pose, or
+    /// of m: then every field has a first axis of m, with NaN where there is no answer, and `reasons` says
+    /// why.
     #[pyclass(frozen, get_all, module = "cdpr")]
     pub(crate) struct Response {
         /// Frequencies [Hz], (k,).
@@ -30,7 +31,7 @@ answer! {
         /// Translation of P and rotation vector per force at P and moment [m/N, rad/N, m/(N m), rad/(N m)],
         /// (k, 6, 6), complex; at 0 Hz without motions that nothing resists.
         per_wrench: Py<PyAny>,
-        /// Why there is no answer, None where there is one; None for one pose.
+        /// Why there is no answer, None if there is one; None for one pose.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,
@@ -49,8 +50,8 @@ struct Shaken {
 impl Robot {
     /// Computes how the platform moves when a force or a winch shakes it.
     ///
-    /// Cables have mass. The winches hold their lengths but for what shakes. Arguments are of one case, or have
-    /// a first axis of m cases; frequencies, damping and marker are those of all cases.
+    /// Cables have mass. The winches hold their lengths but for what shakes. Arguments are of one case, or
+    /// have a first axis of m cases; frequencies, damping and marker are those of all cases.
     ///
     /// Parameters
     /// ----------

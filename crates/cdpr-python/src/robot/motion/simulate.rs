@@ -110,10 +110,10 @@ impl Robot {
     /// events : sequence of dict, optional
     ///     What happens, in the words of the event files of `cdpr simulate`, each at a time `t` [s]:
     ///     {"t": 0, "payload": -50} [kg]; {"t": 0, "cut": 1, "at": "anchor"} or "exit"; {"t": 0, "force":
-    ///     [100, 0, 0], "moment": [0, 0, 0]} [N, N m]; {"t": 0, "displace": [dx, dy, dz, rx, ry, rz]} [m, rad];
-    ///     {"t": 0, "shorten": {"cable": 1, "by": 0.003, "over": 0.2, "profile": "cosine"}} [m, s]; {"t": 0,
-    ///     "lengths": {"times": times, "lengths": lengths}} with arrays (k,) and (k, n) [s, m], which winches
-    ///     follow.
+    ///     [100, 0, 0], "moment": [0, 0, 0]} [N, N m]; {"t": 0, "displace": [dx, dy, dz, rx, ry, rz]}
+    ///     [m, rad]; {"t": 0, "shorten": {"cable": 1, "by": 0.003, "over": 0.2, "profile": "cosine"}} [m, s];
+    ///     {"t": 0, "lengths": {"times": times, "lengths": lengths}} with arrays (k,) and (k, n) [s, m],
+    ///     which winches follow.
     /// control : callable, optional
     ///     Called at each sample with the time [s] and a `MotionState`. It returns what acts until the next
     ///     sample besides the load and the events: a force at P in the base frame [N], (3,), a force and a
@@ -134,8 +134,8 @@ impl Robot {
     /// damping : float, default 0
     ///     Ratio of the viscous to the elastic modulus of the cables [s].
     /// elements, degree : int, optional
-    ///     Elements of each cable, and the degree of the polynomial on each; if left out, few elements of a high
-    ///     degree, and many straight ones of a cable from when it goes slack.
+    ///     Elements of each cable, and the degree of the polynomial on each; if left out, few elements of a
+    ///     high degree, and many straight ones of a cable from when it goes slack.
     /// tolerance : float, default 5e-9
     ///     Error of a step that is accepted [m].
     ///
