@@ -15,6 +15,8 @@ struct Written {
 
 const HTML: Written = Written { is: "the page is HTML", endings: &["html", "htm", "xhtml"] };
 const JSON: Written = Written { is: "the file is JSON", endings: &["json"] };
+const ANSWER: Written =
+    Written { is: "the answer is text, JSON or CSV", endings: &["txt", "json", "csv", "dat", "md"] };
 const CSV: Written = Written { is: "the table is CSV", endings: &["csv", "txt"] };
 
 /// Endings of formats that no file of another format has.
@@ -40,7 +42,7 @@ pub(crate) fn csv() -> impl TypedValueParser<Value = PathBuf> {
 
 /// An answer in any format.
 pub(crate) fn any() -> impl TypedValueParser<Value = PathBuf> {
-    PathBufValueParser::new().try_map(|path| check_place(&path).map(|()| path))
+    of(ANSWER)
 }
 
 fn of(written: Written) -> impl TypedValueParser<Value = PathBuf> {
@@ -101,6 +103,7 @@ mod tests {
         ] {
             let path = Path::new(name);
             assert_eq!((fits(path, HTML.endings), fits(path, JSON.endings)), (html, json), "{name}");
+            assert_eq!(fits(path, ANSWER.endings), json, "{name}");
         }
     }
 }
