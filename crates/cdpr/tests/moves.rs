@@ -18,7 +18,10 @@ fn a_move_is_planned_for_a_controller_and_simulated_from_its_table() {
     let printed = cdpr(&[&plan[..], &["--with", with, "--out", out]].concat());
     let summary = text(printed.stdout);
     assert_eq!(printed.status.code(), Some(0), "{}", unwrapped(printed.stderr));
-    assert!(summary.contains("\nCoGiRo: 1.000 m in 1 s, 101 set points\nShaper for "), "{summary}");
+    assert!(
+        summary.contains("\nCoGiRo: 1.000 m in 1 s at up to 2.21 m/s, 101 set points\nShaper for "),
+        "{summary}"
+    );
     assert!(summary.starts_with("CoGiRo: in 0.300 s after the move P swings by up to 0."), "{summary}");
     assert!(summary.lines().all(|line| line.chars().count() <= 80), "{summary}");
     let table = std::fs::read_to_string(out).unwrap();
@@ -64,7 +67,29 @@ fn the_length_of_a_move_is_that_of_the_curve_on_which_the_platform_moves() {
     let found = answer(&call)["way_m"].as_f64().unwrap();
     // The straight distances are 1.8 m together.
     assert!(found > 1.82 && (found / moved - 1.0).abs() < 1e-3, "{found} {moved}");
-    assert!(said.contains(&format!("Point mass: {found:.3} m in 4 s")), "{said}");
+    assert!(said.contains(&format!("Point mass: {found:.3} m in 4 s at up to ")), "{said}");
+}
+
+#[test]
+fn a_curve_that_dips_into_the_ground_between_its_poses_is_questioned() {
+    let folder = TempDir::new().unwrap();
+    let robot = point_mass(&folder, &[[3.0, 2.0, 4.0], [-3.0, 2.0, 4.0], [0.0, -2.0, 4.0]], false);
+    let mut file: Value = serde_json::from_str(&std::fs::read_to_string(&robot).unwrap()).unwrap();
+    file["ground_z"] = 0.0.into();
+    std::fs::write(&robot, file.to_string()).unwrap();
+    let poses = folder.path().join("poses.csv");
+    let run = |low: f64| {
+        std::fs::write(&poses, format!("x,y,z\n-1,0,2\n-0.5,0,{low}\n0.5,0,{low}\n1,0,2\n")).unwrap();
+        cdpr(&["path", &robot, "--poses", poses.to_str().unwrap(), "--with", "seconds=20"])
+    };
+    let low = run(0.05);
+    let said = unwrapped(low.stderr);
+    assert!(
+        said.contains("question: the move at 10 s is at z = -0.") && said.contains("more poses"),
+        "{said}"
+    );
+    assert_eq!(low.status.code(), Some(3));
+    assert_eq!(run(1.2).status.code(), Some(0));
 }
 
 #[test]

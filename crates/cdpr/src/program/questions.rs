@@ -6,6 +6,7 @@
 use crate::program::error::ProgramError;
 use crate::program::said;
 use cdpr_assess::{HELD, WorkspaceSummary, doubtful_rest};
+use cdpr_dynamics::moves::SetPoint;
 use cdpr_dynamics::simulate::{Change, Event, Series};
 use cdpr_robot::{Doubt, Pose, Robot, Vector3, Wrench, place_of, plausible, rounded, shown};
 use cdpr_statics::{DirectSolution, Load};
@@ -150,6 +151,19 @@ pub(crate) fn about_poses(robot: &Robot, name: &str, poses: &[Pose]) {
     };
     let quantity = format!("pose {} of {}", i + 1, doubt.quantity);
     ask([Doubt { quantity, value: format!("{}{others}", doubt.value), ..doubt }]);
+}
+
+/// Asks about the lowest place of a move that goes into the ground between poses that do not.
+pub(crate) fn about_curve(robot: &Robot, poses: &[Pose], points: &[SetPoint]) {
+    let in_ground = |name: &str, pose: &Pose| plausible::in_ground(robot, name, pose);
+    let lowest = points.iter().min_by(|a, b| a.pose.position.z.total_cmp(&b.pose.position.z));
+    let doubt =
+        lowest.and_then(|point| in_ground(&format!("the move at {} s", rounded(point.time, 4)), &point.pose));
+    let is_known = poses.iter().any(|pose| in_ground("pose", pose).is_some());
+    ask(doubt.filter(|_| !is_known).map(|doubt| {
+        let meant = format!("more poses: between those that are given a move is curved; {}", doubt.meant);
+        Doubt { meant, ..doubt }
+    }));
 }
 
 /// Asks about the first odd corner of a region, which is called `name`.

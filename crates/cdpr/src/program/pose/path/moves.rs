@@ -7,6 +7,7 @@ use crate::program::error::ProgramError;
 use crate::program::output::{Ending, patiently, progress};
 use crate::program::pose::at_pose::RobotAtPose;
 use crate::program::pose::modes::with_inertia;
+use crate::program::questions;
 use answer::{After, Answer, Robots};
 use cdpr_assess::DrawnRobots;
 use cdpr_dynamics::moves::{FeedForward, Move, SetPoint, Shaper, ShaperKind, residual};
@@ -142,6 +143,7 @@ pub(super) fn run(
     let finer = FEWEST.div_ceil(set_points.len());
     let fine = Move { rate: wanted.rate * finer as f64, ..planned.clone() };
     let between = if finer > 1 { fine.plan()? } else { set_points.clone() };
+    questions::about_curve(&robot, &poses, &between);
     let mut answer = Answer::new(&planned, wanted.shaper.map(|_| &modes[..]), &between)?;
     if let Some(seconds) = wanted.residual {
         let simulated = plain.watched(seconds, wanted.damping)?;

@@ -17,6 +17,8 @@ pub(super) struct Answer {
     seconds: f64,
     /// Length of the curve along which P moves.
     way_m: f64,
+    /// Greatest speed of P.
+    speed_m_per_s: f64,
     /// Time [s] and amplitude of each impulse of the shaper.
     impulses: Vec<[f64; 2]>,
     /// Motions that the shaper is for.
@@ -237,6 +239,9 @@ impl Answer {
             points.find(|(_, ends)| one.is_of(&ends[one.cable - 1])).map_or(f64::NAN, |(point, _)| point.time)
         };
         let out_of_limits_at_s = out_of_limits.iter().map(when).collect();
+        let speed = |pair: &[SetPoint]| {
+            (pair[1].pose.position - pair[0].pose.position).norm() / (pair[1].time - pair[0].time)
+        };
         let shaped = |mode: &Excited| Shaped {
             frequency_hz: mode.frequency,
             damping_ratio: mode.damping_ratio,
@@ -245,6 +250,7 @@ impl Answer {
         Ok(Self {
             seconds: planned.seconds,
             way_m: planned.way_length()?,
+            speed_m_per_s: set_points.windows(2).map(speed).fold(0.0, f64::max),
             impulses: planned.shaper.impulses.clone(),
             shaped: modes.unwrap_or_default().iter().map(shaped).collect(),
             is_unshaped: modes.is_some_and(<[Excited]>::is_empty),
@@ -280,8 +286,10 @@ impl Answer {
     fn print(&self, name: &str, set_points: usize) {
         self.residual.iter().for_each(|after| after.print(name));
         self.robots.iter().for_each(Robots::print);
-        let (way, seconds) = (significant(self.way_m, 4), self.seconds);
-        print_sentence(&format!("{name}: {way} m in {seconds} s, {}", counted(set_points, "set point")));
+        let [way, speed] =
+            [(self.way_m, 4), (self.speed_m_per_s, 3)].map(|(of, digits)| significant(of, digits));
+        let (seconds, points) = (self.seconds, counted(set_points, "set point"));
+        print_sentence(&format!("{name}: {way} m in {seconds} s at up to {speed} m/s, {points}"));
         if let ([.., [duration, _]], false) = (&self.impulses[..], self.shaped.is_empty()) {
             // A motion may have several, which makes the shaper less sensitive.
             let mut of: Vec<(String, usize)> = Vec::new();
