@@ -63,6 +63,7 @@ pub(crate) fn check_columns(
     let placed = PlacedRows { robot, size: size(robot), rows };
     let misfit = placed.mean_misfit(ORDER, SIGNS);
     placed.check_coordinates(misfit)?;
+    placed.check_leads(misfit)?;
     placed.check_order_of_lengths(misfit)?;
     placed.check_lengths()
 }
@@ -132,6 +133,27 @@ impl PlacedRows<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Refuses lengths that begin at the exit points of a robot with leads.
+    fn check_leads(&self, misfit: f64) -> Result<(), CalibrationError> {
+        let lead = |i: usize| self.robot.cables[i].lead;
+        let (n, longest) =
+            (self.robot.cables.len(), (0..self.robot.cables.len()).map(lead).fold(0.0, f64::max));
+        let off = |of: &Placed| {
+            let beyond = |i: usize| (of.lengths[i] + lead(i) - self.straight(of, of.position, i)).powi(2);
+            (0..n).map(beyond).sum::<f64>()
+        };
+        let without = (self.rows.iter().map(off).sum::<f64>() / (n * self.rows.len()) as f64).sqrt();
+        if longest == 0.0 || misfit < SEEN * self.size || without > LEFT * LEFT * misfit {
+            return Ok(());
+        }
+        let name = |i| Quantity::Length(i).to_string();
+        let expected = format!(
+            "lengths from the winches on, with the lead of each cable, up to {longest} m: lengths and positions \
+             would then fit"
+        );
+        Err(CalibrationError::Column { column: format!("{} to {}", name(0), name(n - 1)), expected })
     }
 
     /// Refuses two columns of lengths that are swapped.

@@ -119,6 +119,31 @@ fn two_lengths_that_are_swapped_are_named_behind_leads_and_pulleys() {
     }
 }
 
+#[test]
+fn lengths_without_the_leads_of_the_robot_are_named() {
+    for case in cases().iter().filter(|case| case.name != "FAST") {
+        let mut case = case.within(0.5 * case.half);
+        case.robot.cables.iter_mut().enumerate().for_each(|(i, cable)| cable.lead = 4.0 + 0.5 * i as f64);
+        let of = |p: &Parameter| if matches!(p.group(), "a" | "b") { 2e-3 } else { 0.0 };
+        case.stds = Parameter::of(&case.robot).iter().map(of).collect();
+        let (poses, deviations) = (case.poses(12), vec![0.0; case.stds.len()]);
+        let mut rows = simulate(&case.simulated(&deviations, &poses, EXTERNAL, 5)).unwrap();
+        let unknowns = Unknowns::of_model(&case.model());
+        let fitted = |rows: &[Row]| fit(&case.robot, rows, &unknowns, &FitSettings::default());
+        assert!(fitted(&rows).is_ok(), "{}", case.name);
+        for lengths in rows.iter_mut().flat_map(|row| &mut row.lengths) {
+            lengths.iter_mut().zip(&case.robot.cables).for_each(|(length, cable)| *length -= cable.lead);
+        }
+        let error = fitted(&rows).map_or_else(|error| error.to_string(), |_| "none".to_owned());
+        let words = "column l1_m to l";
+        assert!(
+            error.starts_with(words) && error.contains("the lead of each cable"),
+            "{}: {error}",
+            case.name
+        );
+    }
+}
+
 fn flip(rows: &mut [Row], quantity: Quantity) {
     for reading in rows.iter_mut().flat_map(|row| &mut row.readings) {
         if reading.quantity == quantity {
