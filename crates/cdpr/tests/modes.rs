@@ -3,6 +3,7 @@
 use crate::common::{cdpr, data_path, data_text, text, unwrapped};
 use crate::equilibria::number;
 use crate::models::{answer, close, joined, numbers, printed};
+use crate::response::HOOK;
 use cdpr_robot::{Pose, Robot};
 use cdpr_statics::vibration::modes_at;
 use cdpr_statics::{Load, inverse};
@@ -181,4 +182,32 @@ fn the_table_of_a_pose_has_a_row_for_each_motion() {
         assert_eq!(of("cable_share_8", k + 1), numbers(&mode["cable_shares"])[7]);
         assert_eq!(of("rotation_z", k + 1), numbers(&mode["rotation"])[2]);
     }
+}
+
+#[test]
+fn a_motion_that_nothing_resists_is_no_vibration() {
+    let folder = TempDir::new().unwrap();
+    let file = folder.path().join("hook.json");
+    std::fs::write(&file, HOOK).unwrap();
+    let ask = [
+        "modes",
+        file.to_str().unwrap(),
+        "--free",
+        "x,y,roll,pitch,yaw",
+        "--pose",
+        "0,0,1.6",
+        "--number",
+        "3",
+    ];
+    let modes = answer(&ask)["modes"].clone();
+    let lowest = number(&modes[1]["frequency_hz"]);
+    assert!(number(&modes[0]["frequency_hz"]) == 0.0 && lowest > 0.1);
+    let said = printed(&ask);
+    assert!(said.contains(&format!("{lowest:.4} Hz; 3 motions")), "{said}");
+    assert!(said.contains("Nothing resists a motion of the platform about z."), "{said}");
+    let table = folder.path().join("poses.csv");
+    std::fs::write(&table, "x,y,z\n0,0,1.6\n0,0,1.7\n").unwrap();
+    let rows = printed(&[&ask[..4], &["--poses", table.to_str().unwrap()]].concat());
+    let first = rows.lines().nth(1).unwrap().split(',').nth(8).unwrap();
+    assert!((first.parse::<f64>().unwrap() - lowest).abs() < 1e-9, "{rows}");
 }

@@ -89,7 +89,7 @@ fn a_peak_that_nothing_damps_has_no_number() {
 }
 
 /// A body on one cable, which turns about the cable as it likes.
-const HOOK: &str = r#"{"format":"cdpr-robot/1","name":"hook","gravity":9.81,"platform":{"mass":5,
+pub(crate) const HOOK: &str = r#"{"format":"cdpr-robot/1","name":"hook","gravity":9.81,"platform":{"mass":5,
 "center_of_mass":[0,0,0],"inertia":[[0.3,0,0],[0,0.5,0],[0,0,0.7]]},
 "cable":{"diameter":0.004,"section":8e-6,"linear_density":0,"youngs_modulus":1e11},
 "tension_limits":{"min":1,"max":5000},

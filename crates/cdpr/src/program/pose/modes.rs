@@ -211,7 +211,7 @@ impl Row for Answer {
         let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
         let platform = self.platform.as_ref();
         vec![
-            number(self.modes.first().map(|mode| mode.frequency_hz)),
+            number(self.lowest()),
             number(platform.map(|mode| mode.frequency_hz)),
             number(platform.map(|mode| mode.platform_share)),
             self.counted.to_string(),
@@ -241,10 +241,9 @@ impl Row for Answer {
     }
 
     fn brief(&self) -> Vec<Brief> {
-        let lowest = self.modes.first().map(|mode| mode.frequency_hz);
         let own = self.platform.as_ref().filter(|platform| platform.platform_share >= OWN);
         let platform = Brief::Shown("platform", "Hz", own.map(|platform| platform.frequency_hz));
-        vec![Brief::Least("lowest", "Hz", lowest), platform]
+        vec![Brief::Least("lowest", "Hz", self.lowest()), platform]
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
@@ -295,14 +294,21 @@ impl Answer {
         }
     }
 
+    /// The lowest frequency of a vibration [Hz].
+    fn lowest(&self) -> Option<f64> {
+        self.modes.iter().find(|mode| !mode.is_free()).map(|mode| mode.frequency_hz)
+    }
+
     fn print(&self, heading: &str) {
         let (counted, below) = (self.counted, self.complete_below_hz);
-        let lowest = self.modes.iter().map(|mode| mode.frequency_hz).min_by(f64::total_cmp);
-        match lowest {
+        match self.lowest() {
             Some(lowest) => print_sentence(&format!(
                 "{heading}: lowest natural frequency {lowest:.4} Hz; {counted} motions up to {below:.4} Hz."
             )),
-            None => print_sentence(&format!("{heading}: no natural motions up to {below:.4} Hz.")),
+            None => print_sentence(&format!("{heading}: no natural frequencies up to {below:.4} Hz.")),
+        }
+        for mode in self.modes.iter().filter(|mode| mode.is_free()) {
+            print_sentence(&format!("Nothing resists a motion of the platform {}.", mode.direction()));
         }
         if let Some(Swinging { frequency_hz, platform_share }) = &self.platform {
             print_sentence(&format!("{}.", swinging(*frequency_hz, *platform_share)));
@@ -332,6 +338,11 @@ impl Answer {
 }
 
 impl Motion {
+    /// Whether it is no vibration, because nothing resists it.
+    fn is_free(&self) -> bool {
+        self.frequency_hz <= 0.0
+    }
+
     /// The direction in which the platform moves most, and the axis about which it turns most.
     fn direction(&self) -> String {
         /// Share of the platform below which its direction is rounding.
