@@ -189,3 +189,17 @@ fn amplitudes_of_a_shaken_platform_have_columns_a_map_and_their_conditions() {
         assert!(text(refused.stderr).contains("expected"), "{wrong}");
     }
 }
+
+#[test]
+fn the_region_says_how_the_load_is_borne() {
+    let folder = TempDir::new().unwrap();
+    for (with, words) in
+        [("boundary", "with tensions for the load"), ("boundary=kept", "with the lengths kept")]
+    {
+        let printed = run(
+            folder.path(),
+            &["--region=-1:1:3,-0.5:0.5:3,1.75", "--payload", "9", "--with", with, "--out", with],
+        );
+        assert!(printed.replace('\n', " ").contains(&format!("The region held {words} has ")), "{printed}");
+    }
+}

@@ -337,13 +337,18 @@ fn print(summary: &WorkspaceSummary) {
             counted(exceeds, "position")
         ));
     }
-    if let Some(BoundarySummary { measure, error, doubtful, unit, .. }) = &summary.boundary {
+    if let Some(BoundarySummary { way, measure, error, doubtful, unit, .. }) = &summary.boundary {
+        let with = match (summary.is_loaded(), *way) {
+            (false, _) => "",
+            (true, "kept") => " with the lengths kept",
+            (true, _) => " with tensions for the load",
+        };
         let [measure, smooth, unseen] =
             [(measure, 5), (error, 2), (doubtful, 2)].map(|(x, n)| significant(*x, n));
         let more = format!("{unseen} {unit} are in doubt; more points show it");
         let doubt = if *doubtful > *error { more.as_str() } else { "none were found" };
         print_sentence(&format!(
-            "The region held has {measure} {unit}, with an error of {smooth} where its boundary is smooth. \
+            "The region held{with} has {measure} {unit}, with an error of {smooth} where its boundary is smooth. \
              Parts thinner than a step of the grid are not seen: {doubt}."
         ));
     }
