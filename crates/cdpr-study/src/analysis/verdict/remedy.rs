@@ -13,6 +13,9 @@ const BLOCKS: usize = 64;
 /// narrow: the squares of the derivatives have a heavy tail.
 const HEAVY: usize = 1024;
 
+/// How many times as many observations blocks have to need where points for some inputs are named, too.
+const MUCH: usize = 4;
+
 /// Most points or blocks that a remedy names.
 const MOST: f64 = (1 << 20) as f64;
 
@@ -58,6 +61,11 @@ impl Candidate {
         open.bounds.iter().map(|of| self.wanted_by(of)).collect::<Option<Vec<_>>>()?.into_iter().max()
     }
 
+    /// Observations that settle some inputs, if any number does.
+    fn cost(&self, open: &Open) -> Option<usize> {
+        Some(self.wanted(open)?.saturating_sub(self.count) * self.observations)
+    }
+
     /// The inputs that are open and of which `is_own` is true for their place and bounds.
     fn open<'a>(&'a self, names: &'a [String], is_own: impl Fn(usize, &TotalBounds) -> bool) -> Open<'a> {
         let Said::Bounds(bounds) = &self.said else { return Open { names: Vec::new(), bounds: Vec::new() } };
@@ -98,8 +106,16 @@ impl Candidate {
                 blocks.and_then(|of| of.remedy_of(subject, &of.open(names, is_other), names.len()));
             of_blocks.or_else(|| self.remedy_of(subject, &others, names.len()))
         };
-        if others.names.is_empty() || by_points.names.is_empty() {
-            return if others.names.is_empty() { self.remedy(names) } else { by_blocks("it") };
+        if others.names.is_empty() {
+            return self.remedy(names);
+        }
+        // Blocks settle all inputs: points for some of them have to be much cheaper.
+        let points = self.cost(&by_points);
+        let first = BLOCKS * (names.len() + 2);
+        let most = blocks.map_or(Some(first), |of| of.cost(&of.open(names, is_other)));
+        if by_points.names.is_empty() || points.zip(most).is_some_and(|(points, most)| MUCH * points > most) {
+            let of_blocks = blocks.and_then(|of| of.remedy(names));
+            return of_blocks.or_else(|| self.remedy_of("it", &others, names.len()));
         }
         let all = |names: &[&str]| listing("", names, "");
         let first = self.remedy_of(&all(&by_points.names), &by_points, names.len())?;
@@ -181,6 +197,10 @@ mod tests {
         let both = remedy(vec![(Basis::Derivatives, 64, vec![bounds(CERTAIN), near, heavy])]);
         assert!(both.starts_with("To settle x1: about 64 more points with derivatives"), "{both}");
         assert!(both.contains("To settle x2: Sobol' indices, as derivatives alone cannot"), "{both}");
+        // Points for one of two inputs that cost more than the blocks, which settle both.
+        let far = bounds([0.0, 0.0101, 0.0102, 0.012]);
+        let dear = remedy(vec![(Basis::Derivatives, 8192, vec![bounds(CERTAIN), far, heavy])]);
+        assert!(dear.starts_with("To settle it: Sobol' indices"), "{dear}");
         // With blocks, of which more settle both.
         let [mass, density] = [[0.0, 0.0103, 0.0103, 0.026], [0.0, 0.0, 0.0, 0.016]];
         let blocks = vec![bounds(CERTAIN), bounds(mass), bounds(density)];
