@@ -163,6 +163,10 @@ pub struct DesignedVariable {
     /// By how much the objective changes for each unit by which an active bound is moved; zero within
     /// bounds.
     pub per_unit: f64,
+    /// Whether the objective is flat at an active bound: by the whole width of the bounds it changes by less
+    /// than a thousandth.
+    #[serde(skip)]
+    pub flat: bool,
 }
 
 /// A demand that is met with equality, and costs something.
@@ -242,6 +246,9 @@ fn is_same(problem: &DesignProblem, one: &Found, best: &Found) -> bool {
         && one.values.iter().zip(&best.values).zip(&problem.variables).all(is_near)
 }
 
+/// Share of the objective below which an active bound counts as worth nothing.
+const FLAT: f64 = 1e-3;
+
 /// Distance from a bound, as a share of the way between both, within which a search ends next to it.
 const NEXT_TO_BOUND: f64 = 1e-6;
 
@@ -267,12 +274,14 @@ fn best_design(
             Domain::Bounds(ends @ [_, high]) if to == high || near(ends, high) && slope < 0.0 => Some("max"),
             _ => None,
         };
+        let width = if let Domain::Bounds([low, high]) = variable.domain { high - low } else { 0.0 };
         DesignedVariable {
             name: variable.name.clone(),
             unit: variable.parameters[0].0.unit(),
             from: variable.nominal,
             to,
             per_unit: if bound.is_some() { sign * slope } else { 0.0 },
+            flat: bound.is_some() && (slope * width).abs() < FLAT * best.objective.abs(),
             bound,
         }
     };

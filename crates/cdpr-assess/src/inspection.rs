@@ -267,17 +267,7 @@ impl Findings<'_> {
             if together && name == "anchor_point" {
                 continue;
             }
-            for (j, point) in points.iter().enumerate() {
-                if let Some(i) = points[..j].iter().position(|other| (other - point).norm() < 1e-9) {
-                    self.add(
-                        Severity::Note,
-                        format!("cables[{j}].{name}"),
-                        format!("{:?} m", point.as_slice()),
-                        &format!("the same place as that of cable {}", i + 1),
-                        "nothing, if two cables meet there; else the point as measured",
-                    );
-                }
-            }
+            self.shared(name, points);
         }
     }
 }

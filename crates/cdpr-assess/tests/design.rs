@@ -64,6 +64,9 @@ fn an_active_bound_is_met_exactly_and_its_rate_is_that_of_the_moved_bound() {
     assert_eq!((variable.to, variable.bound, best.same), (-4.0, Some("max"), 5));
     let moved = (at(-3.999).objective - at(-4.001).objective) / 0.002;
     assert!((variable.per_unit - moved).abs() < 1e-5 * moved.abs(), "{} {moved}", variable.per_unit);
+    // The optimum without a bound is at -2.8284: one next to it is worth nothing.
+    let next = at(-2.83).variables[0].clone();
+    assert!(next.bound == Some("max") && next.flat && !variable.flat, "{next:?}");
 }
 
 #[test]

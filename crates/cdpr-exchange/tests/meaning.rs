@@ -228,3 +228,15 @@ fn a_table_whose_numbers_leave_out_a_cable_is_refused() {
         assert_eq!(with(name, numbers).unwrap().robot.cables.len(), 2, "{name} {numbers:?}");
     }
 }
+
+/// A product with 0.001 is 0.17500000000000002.
+#[test]
+fn millimetres_are_divided_and_zero_has_no_sign() {
+    let table = "Exit X [mm],Exit Y [mm],Exit Z [mm],ax,ay,az [cm],linear_density [g/m],section,modulus\n\
+                 175,-1644,-0,-0.0,0,7,83,1e-5,1e11\n";
+    let robot = imported(&[("r.csv", table)], &all_options()).unwrap().robot;
+    let cable = &robot.cables[0];
+    let numbers = [cable.exit_point.x, cable.exit_point.y, cable.exit_point.z, cable.anchor_point.x];
+    assert_eq!(format!("{numbers:?}"), "[0.175, -1.644, 0.0, 0.0]");
+    assert_eq!(cable.anchor_point.z, 0.07);
+}

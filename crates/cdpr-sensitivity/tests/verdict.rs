@@ -278,6 +278,34 @@ fn all_estimators(data: &GivenData) {
 }
 
 #[test]
+fn an_input_that_acts_with_another_one_names_it_and_too_few_rows_have_no_table() {
+    // y = 2 a + b c; d does nothing.
+    let mut seed = 7_u64;
+    let mut next = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (seed >> 33) as f64 / f64::from(1 << 30) - 1.0
+    };
+    let columns: Vec<Vec<f64>> = (0..4).map(|_| (0..600).map(|_| next()).collect()).collect();
+    let outputs = |rows: usize| {
+        (0..rows).map(|row| 0.5 * columns[0][row] + columns[1][row] * columns[2][row]).collect::<Vec<f64>>()
+    };
+    let found = Analyser::new(1).analyse(&table(columns.clone(), outputs(600))).unwrap();
+    let partners: Vec<(&str, &str)> = (found.verdict.certain.iter())
+        .filter_map(|of| Some((of.input.as_str(), of.with.as_deref()?)))
+        .collect();
+    let of_both = [("x2", "x3"), ("x3", "x2")];
+    assert!(!partners.is_empty() && partners.iter().all(|of| of_both.contains(of)), "{:?}", found.verdict);
+    let (input, other) = partners[0];
+    let said = &found.verdict.sentences[0];
+    assert!(said.contains(&format!("{input} (together with {other})")), "{said}");
+    let word = format!("together with {other}");
+    assert!(LeadingInputs::of(&found).rows.iter().any(|row| row[2] == word));
+    let few = columns.iter().map(|column| column[..2].to_vec()).collect();
+    let few = Analyser::new(1).analyse(&table(few, outputs(2))).unwrap();
+    assert_eq!(LeadingInputs::of(&few), LeadingInputs { rows: vec![], captions: vec![] });
+}
+
+#[test]
 fn no_estimator_panics_with_few_rows_ties_and_extremes() {
     let lists: [fn(usize) -> f64; 6] = [
         |row| row as f64,

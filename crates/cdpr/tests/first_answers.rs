@@ -37,6 +37,28 @@ fn begins_with_sentence(printed: &str, name: &str) {
     assert!(printed.chars().take_while(|c| *c != '\u{250c}').any(|c| c == '.'), "{printed}");
 }
 
+/// A name of a hundred columns would fill the first line.
+#[test]
+fn a_long_name_leaves_the_first_line_to_the_answer() {
+    let folder = TempDir::new().unwrap();
+    let name =
+        "The robot above the northern half of the hall, with the light cables of last year, as surveyed";
+    for (robot, pose, free) in ROBOTS {
+        let mut file = json_file(data(&format!("robots/{robot}.json")));
+        file["name"] = name.into();
+        std::fs::write(folder.path().join("long.json"), file.to_string()).unwrap();
+        let pose = format!("--pose={pose}");
+        for command in ["inverse", "stiffness", "modes", "capacity", "safety"] {
+            let printed = narrow(folder.path(), &[&[command, "long.json", &pose], free].concat());
+            let first = printed.lines().next().unwrap();
+            assert!(first.starts_with("The robot abo") && first.contains("..."), "{command}: {printed}");
+        }
+        let checked = narrow(folder.path(), &["robot", "check", "long.json"]);
+        let first = checked.lines().next().unwrap();
+        assert!(first.contains("...") && first.ends_with('.'), "{checked}");
+    }
+}
+
 #[test]
 fn answers_at_a_pose_are_a_sentence_and_80_columns_wide() {
     let folder = TempDir::new().unwrap();

@@ -95,6 +95,15 @@ fn the_only_sampling_of_a_study_needs_no_name_and_several_are_named() {
 }
 
 #[test]
+fn a_study_that_is_not_there_is_named_without_the_error_model() {
+    let given = "nowhere/study.json:table_4";
+    let at = ["derivatives", "caroca", "--pose", "0,0,1.75", "--payload", "5", "--uncertainty", given];
+    let output = cdpr(&at);
+    let message = unwrapped(output.stderr);
+    assert!(message.starts_with("error: cannot read nowhere/study.json: "), "{message}");
+}
+
+#[test]
 fn the_error_model_of_another_robot_is_refused() {
     let (robot, study) = (data_path("robots/cogiro.json"), data_path("studies/caroca.json"));
     let other = data_path("robots/grab.json");

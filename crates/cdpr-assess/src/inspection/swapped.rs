@@ -4,7 +4,7 @@
 use super::pose::held;
 use super::{Findings, Severity, symmetry};
 use crate::clearance::HangingCables;
-use cdpr_robot::Robot;
+use cdpr_robot::{Robot, Vector3};
 
 /// Cables at most of a robot all of whose pairs are tried.
 const MOST_CABLES: usize = 12;
@@ -13,6 +13,22 @@ const MOST_CABLES: usize = 12;
 const MOST_PAIRS: usize = 4;
 
 impl Findings<'_> {
+    /// A note for all cables that share an exit point or an anchor point.
+    pub(super) fn shared(&mut self, name: &str, points: &[Vector3<f64>]) {
+        let first = |j: usize| points[..j].iter().position(|other| (other - points[j]).norm() < 1e-9);
+        let pairs: Vec<[usize; 2]> = (0..points.len()).filter_map(|j| Some([first(j)?, j])).collect();
+        let remedy = "nothing, if two cables meet there; else the point as measured";
+        if let [[i, j]] = pairs[..] {
+            let (field, value) = (format!("cables[{j}].{name}"), format!("{:?} m", points[j].as_slice()));
+            let why = format!("the same place as that of cable {}", i + 1);
+            self.add(Severity::Note, field, value, &why, remedy);
+        } else if !pairs.is_empty() {
+            let all: Vec<String> = pairs.iter().map(|[i, j]| format!("{} and {}", i + 1, j + 1)).collect();
+            let value = format!("the same for cables {}", all.join(", "));
+            self.add(Severity::Note, format!("cables[*].{name}"), value, "two cables at one place", remedy);
+        }
+    }
+
     /// Which two anchor points are to be exchanged, if the robot holds no pose or its cables touch.
     pub(super) fn swapped_anchors(&mut self) {
         let robot = self.robot;

@@ -60,7 +60,7 @@ pub(crate) fn read(file: &str, text: &str) -> Result<Draft, ExchangeError> {
             match blank.map(|at| own.blanks[at].text.as_str()) {
                 Ok("") => Ok(None),
                 Ok(text) => Err(value(line, name, &format!("{:?}", short(text)), "a finite number")),
-                Err(_) => Ok(Some(column.factor * number)),
+                Err(_) => Ok(Some(column.in_si(number))),
             }
         };
         let need = |name: &str| {

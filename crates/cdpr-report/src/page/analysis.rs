@@ -106,7 +106,9 @@ fn verdict(analysis: &Analysis) -> Markup {
     let leading: Vec<Vec<Markup>> = leading.iter().map(|row| row.iter().map(cell).collect()).collect();
     html! {
         @for sentence in &verdict.sentences { p { (text::capital(sentence)) "." } }
-        (table(&text::capital(&captions.join(". ")), &LeadingInputs::HEADER, &leading))
+        @if !leading.is_empty() {
+            (table(&text::capital(&captions.join(". ")), &LeadingInputs::HEADER, &leading))
+        }
         p {
             (counted(verdict.tests, "test")) " of all inputs and measures, corrected together: one or more \
              false certainties in 5 % of all tables at most."

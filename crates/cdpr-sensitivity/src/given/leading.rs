@@ -26,10 +26,13 @@ impl LeadingInputs {
     /// Names of the columns.
     pub const HEADER: [&str; 3] = ["input", "first-order share [%]", "found by"];
 
-    /// The inputs that are found come first.
+    /// The inputs that are found come first. Of too few rows there is nothing to show.
     #[must_use]
     pub fn of(analysis: &Analysis) -> Self {
         let verdict = &analysis.verdict;
+        if verdict.tests == 0 {
+            return Self { rows: Vec::new(), captions: Vec::new() };
+        }
         let row = |input: &InputAnalysis| {
             let share = Share::of(analysis, input).map_or("-".to_owned(), Share::cell);
             [input.input.clone(), share, found_by(analysis, input).unwrap_or("-".to_owned())]
@@ -69,9 +72,9 @@ impl LeadingInputs {
 fn found_by(analysis: &Analysis, input: &InputAnalysis) -> Option<String> {
     let verdict = &analysis.verdict;
     let is_it = |finding: &&Finding| finding.input == input.input;
-    let certain = verdict.certain.iter().find(is_it).map(|found| found.measure.word().to_owned());
+    let certain = verdict.certain.iter().find(is_it).map(Finding::by);
     let related = || verdict.related.iter().find(is_it);
-    certain.or_else(|| related().map(|found| format!("{}, cause or not", found.measure.word())))
+    certain.or_else(|| related().map(|found| format!("{}, cause or not", found.by())))
 }
 
 /// A first-order share.

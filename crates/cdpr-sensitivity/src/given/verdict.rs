@@ -30,6 +30,7 @@
 mod dependence;
 mod joint;
 mod order;
+mod partner;
 pub(super) mod sequence;
 
 use std::collections::HashSet;
@@ -43,6 +44,7 @@ use crate::given::evidence::{self, MOST_OF_PAIRS, Measure, Test, Tested, Tests};
 use crate::given::hsic::{self, Dependence, Rows};
 use crate::given::verdict::dependence::{FALSE_FINDINGS, Inputs};
 use crate::given::verdict::order::{Order, in_order};
+use crate::given::verdict::partner::partner;
 use crate::sample::random::derived_seed;
 
 /// An input that matters.
@@ -56,6 +58,9 @@ pub struct Finding {
     /// p (Ve1) of this measure, corrected for all inputs and measures. Below 1e-4 it is an indication of its
     /// size.
     pub p_value: f64,
+    /// The input with which it acts, where the measure is [`Measure::Together`] and one is clear.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub with: Option<String>,
     /// Why it need not be a cause.
     pub reasons: Vec<String>,
 }
@@ -64,6 +69,12 @@ pub struct Finding {
 const MAY_DEPEND: &str = "may depend on ";
 
 impl Finding {
+    /// The word for the measure that finds it.
+    pub(crate) fn by(&self) -> String {
+        let with = self.with.as_ref().map_or_else(String::new, |other| format!(" with {other}"));
+        format!("{}{with}", self.measure.word())
+    }
+
     /// The others on which it may depend, where nothing else keeps it from being certain.
     fn unless(&self) -> Option<&str> {
         let [reason] = &self.reasons[..] else { return None };
@@ -169,7 +180,9 @@ impl Table<'_> {
             let name = self.names[*input].to_owned();
             let Test { measure, p_value } = tests[0];
             let list = if reasons.is_empty() { &mut verdict.certain } else { &mut verdict.related };
-            list.push(Finding { input: name, measure, p_value, reasons });
+            let acts = (measure == Measure::Together).then(|| partner(&tested, &self.drawn.outputs, *input));
+            let with = acts.flatten().map(|other| self.names[other].to_owned());
+            list.push(Finding { input: name, measure, p_value, with, reasons });
         }
         self.note_dependence(&mut verdict, "depend", pairs);
         self.note_dependence(&mut verdict, "may depend", likely);
@@ -265,7 +278,7 @@ pub(crate) fn listed<T>(all: &[T], most: usize, word: impl Fn(&T) -> String) -> 
 
 /// Inputs that are found, each with what finds it first.
 fn names(list: &[&Finding]) -> String {
-    let name = |finding: &&Finding| format!("{} ({})", finding.input, finding.measure.word());
+    let name = |finding: &&Finding| format!("{} ({})", finding.input, finding.by());
     list.iter().map(name).collect::<Vec<_>>().join(", ")
 }
 

@@ -174,13 +174,14 @@ impl Recommendation {
         };
         let text = |value: f64| significant(scale * value, 3);
         match (of.value, of.low.zip(of.high)) {
+            // One form for all inputs: of some the estimates of both bounds coincide.
+            (_, Some((low, high))) if self.basis == Basis::Derivatives && low > 0.0 => {
+                format!("{} to {}{unit}", text(low), text(high))
+            }
             (Some(value), Some((low, high))) => {
                 format!("{}{unit} ({} to {})", text(value), text(low), text(high))
             }
             (Some(value), None) => format!("{}{unit}", text(value)),
-            (None, Some((low, high))) if self.basis == Basis::Derivatives && low > 0.0 => {
-                format!("{} to {}{unit}", text(low), text(high))
-            }
             (None, Some((_, high))) if of.standing == Some(Standing::Negligible) => {
                 format!("at most {}{unit}", text(high))
             }

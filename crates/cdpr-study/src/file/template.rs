@@ -22,8 +22,8 @@ The study runs as it is. Replace by what you know of your robot:
     linear_density, youngs_modulus     of all cables [kg/m], [Pa]
     a, b, cog, dt  anchor points, exit points, centre of mass [m], tension
                    set-points [N]
-    r, lead, tilt  of cables over pulleys: radii [m], leads [m], tilts of swivel
-                   axes [rad]
+    r, lead, tilt  of pulleys: radii, leads [m], tilts of axes [rad]; lengths
+                   are absolute: no lead if winches are referenced at a pose
     gravity        components of a vector of gravity [m/s\u{b2}]; the entry of a
                    parameter, such as a3.x, takes precedence over that of its
                    group

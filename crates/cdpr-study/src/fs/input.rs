@@ -20,7 +20,13 @@ use std::time::Duration;
 /// [`StudyError::Read`]; [`StudyError::NotRegular`] for a folder, a device or a pipe without content;
 /// [`StudyError::TooLarge`].
 pub fn read_text(path: &Path, kind: InputKind) -> Result<String, StudyError> {
-    text_of(path, read_bytes(path, kind)?)
+    let text = text_of(path, read_bytes(path, kind)?)?;
+    // Parts of a folder of results and files of other programs have messages of their own.
+    if text.trim().is_empty() && !matches!(kind, InputKind::Results | InputKind::Foreign) {
+        let source = io::Error::new(ErrorKind::InvalidData, "the file is empty");
+        return Err(StudyError::Read { path: path.to_owned(), source });
+    }
+    Ok(text)
 }
 
 /// The table of a file: CSV and its relatives.

@@ -4,10 +4,11 @@ use crate::program::error::ProgramError;
 use crate::program::questions;
 use crate::program::said::{self, Said};
 use cdpr_report::ReportError;
-use cdpr_robot::{COLUMNS, broken, shown_lines, wrapped};
+use cdpr_robot::{COLUMNS, broken, shown, shown_lines, wrapped};
 use cdpr_study::{IfExists, check_replaceable, write_file};
 use comfy_table::{ContentArrangement, Table, presets};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle, WeakProgressBar};
+use std::borrow::Cow;
 use std::fmt;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -187,9 +188,47 @@ pub(crate) struct Details {
     pub(crate) details: bool,
 }
 
-/// Prints a sentence on lines of at most 80 columns.
+/// Prints a sentence on lines of at most 80 columns. A long name of the robot is shortened where the first
+/// sentence would have two lines.
 pub(crate) fn print_sentence(sentence: &str) {
-    broken(sentence).iter().for_each(|line| println!("{line}"));
+    let name = NAME.get().map_or("", String::as_str);
+    broken(&brief(sentence, name)).iter().for_each(|line| println!("{line}"));
+}
+
+/// The name of the robot that the answer is about.
+static NAME: OnceLock<String> = OnceLock::new();
+
+/// Remembers the name of the robot that the answer is about.
+pub(crate) fn about(name: &str) {
+    // A command is about one robot, the first one.
+    let _ = NAME.set(shown(name).into_owned());
+}
+
+/// Columns that every name may have.
+const NAME_COLUMNS: usize = 16;
+
+/// A sentence, or several, with a long name in it shortened to what lets the first one have one line.
+pub(crate) fn brief<'a>(sentence: &'a str, name: &str) -> Cow<'a, str> {
+    let columns = name.chars().count();
+    let found = sentence.find(name).filter(|_| columns > NAME_COLUMNS);
+    let Some(at) = found else { return Cow::Borrowed(sentence) };
+    let (before, after) = (&sentence[..at], &sentence[at + name.len()..]);
+    let first = after.find(". ").map_or(after, |end| &after[..=end]);
+    let others = before.chars().count() + first.chars().count();
+    if others + columns <= COLUMNS {
+        return Cow::Borrowed(sentence);
+    }
+    let kept = COLUMNS.saturating_sub(others).max(NAME_COLUMNS);
+    Cow::Owned(format!("{before}{}{after}", cut(name, kept)))
+}
+
+/// A name of at most so many columns, with `...` for what is left out.
+pub(crate) fn cut(name: &str, columns: usize) -> String {
+    if name.chars().count() <= columns {
+        return name.to_owned();
+    }
+    let kept: String = name.chars().take(columns.saturating_sub(3)).collect();
+    format!("{}...", kept.trim_end())
 }
 
 /// An empty table whose long cells are broken, so that a line has at most 80 columns.
@@ -317,6 +356,22 @@ mod tests {
             }
         });
         assert!(shown.len() == 3 && shown[2] >= Duration::from_millis(5), "{shown:?}");
+    }
+
+    #[test]
+    fn a_long_name_is_shortened_where_the_first_sentence_would_have_two_lines() {
+        let name = "a camera above the northern ".repeat(4);
+        let name = name.trim_end();
+        let one = " carries up to 12 kg.";
+        for after in [one.to_owned(), format!("{one} It has 4 cables, and a second sentence is free.")] {
+            let said = brief(&format!("{name} at (0, 0, 2) m{after}"), name).into_owned();
+            let first = broken(&said)[0].clone();
+            assert!(first.contains("... at (0, 0, 2) m carries up to 12 kg."), "{said}");
+        }
+        assert_eq!(brief("a robot of 9 kg.", "a robot"), "a robot of 9 kg.");
+        let long = format!("{name}: {}", "word ".repeat(30));
+        assert!(brief(&long, name).starts_with("a camera abov...: word"));
+        assert_eq!(cut("b1234567.x", 8), "b1234...");
     }
 
     #[test]

@@ -8,6 +8,15 @@ pub(crate) struct Column {
     pub(crate) factor: f64,
 }
 
+impl Column {
+    /// A number of the column in SI units. It is divided by 1000 instead of multiplied by 0.001, which is no
+    /// double: 175 mm are 0.175 m. Zero has no sign.
+    pub(crate) fn in_si(&self, number: f64) -> f64 {
+        let value = if self.factor < 1.0 { number / (1.0 / self.factor) } else { number * self.factor };
+        value + 0.0
+    }
+}
+
 /// What a column means.
 pub(crate) struct Meaning {
     /// Its name in this program.

@@ -35,6 +35,7 @@ pub(super) fn of_derivatives(
         at_most: of.total_upper.value,
         high: of.total_upper.high.min(1.0),
         few: !square.reliable,
+        by_others: square.total_bound.is_none(),
     });
     let points = summary.observations;
     Ok(Candidate {
@@ -78,6 +79,7 @@ pub(super) fn of_sobol(
         at_most: of.total.value,
         high: of.total.high.min(1.0),
         few: false,
+        by_others: false,
     });
     Ok(Candidate {
         basis: Basis::Sobol,

@@ -101,6 +101,8 @@ pub(crate) struct TotalBounds {
     pub(crate) high: f64,
     /// Whether few points decide the upper bound, so that its distance from the end says little.
     pub(crate) few: bool,
+    /// Whether the law has no bound by derivatives, so that what the others have bounds it from above.
+    pub(crate) by_others: bool,
 }
 
 /// A basis with what it says of the inputs, in their order.
@@ -136,7 +138,7 @@ pub(crate) fn by_expansion(total: f64, error: f64) -> TotalBounds {
     let (norm, error) = ((total * (1.0 - error)).max(0.0).sqrt(), error.max(0.0).sqrt());
     let [low, high] = [(norm - error).max(0.0), norm + error].map(|norm| (norm * norm).min(1.0));
     let value = norm * norm;
-    TotalBounds { low, at_least: value, at_most: value, high, few: false }
+    TotalBounds { low, at_least: value, at_most: value, high, few: false, by_others: false }
 }
 
 /// The recommendation of the candidate that says most; `None` without candidates.
@@ -158,16 +160,10 @@ pub(crate) fn recommend(
     candidates.retain(|of| of.basis != Basis::Derivatives || !refuted);
     candidates.sort_by_key(rank);
     complete(&mut candidates);
-    // Where points of derivatives cannot settle the others, blocks may, and where nothing is bounded.
-    let of_blocks =
-        candidates.iter().find(|of| of.basis == Basis::Sobol).and_then(|blocks| blocks.remedy(names));
-    let first = candidates.into_iter().next()?;
-    let is_left = match first.said {
-        Said::Bounds(_) => first.basis == Basis::Derivatives && first.wanted().is_none(),
-        Said::Values(_) => true,
-    };
-    let found = first.recommendation(names, confidence);
-    Some(Recommendation { remedy: of_blocks.filter(|_| is_left).or(found.remedy), ..found })
+    let first = candidates.first()?;
+    let remedy = first.remedy_with(candidates.iter().find(|of| of.basis == Basis::Sobol), names);
+    let found = candidates.into_iter().next()?.recommendation(names, confidence);
+    Some(Recommendation { remedy, ..found })
 }
 
 /// Gives inputs that derivatives leave open the bounds by Sobol' indices that settle them, and the other way.
@@ -239,7 +235,6 @@ impl Candidate {
     }
 
     fn recommendation(self, names: &[String], confidence: f64) -> Recommendation {
-        let remedy = self.remedy(names);
         let index = |input: &String, value, [low, high]: [Option<f64>; 2], standing| RecommendedIndex {
             input: input.clone(),
             value,
@@ -280,7 +275,7 @@ impl Candidate {
             measure: format!("{}{}{failed}", self.measure, self.by),
             confidence: joint.then_some(confidence),
             inputs: inputs.into_iter().map(|(_, index)| index).collect(),
-            remedy,
+            remedy: None,
             explained: None,
         }
     }
@@ -291,7 +286,7 @@ mod tests {
     use super::*;
 
     fn bounds(low: f64, at_least: f64, at_most: f64, high: f64) -> TotalBounds {
-        TotalBounds { low, at_least, at_most, high, few: false }
+        TotalBounds { low, at_least, at_most, high, few: false, by_others: false }
     }
 
     fn candidate(basis: Basis, count: usize, of: Vec<TotalBounds>) -> Candidate {

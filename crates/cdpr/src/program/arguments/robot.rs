@@ -2,6 +2,7 @@
 
 use crate::program::arguments::{components, mass};
 use crate::program::error::ProgramError;
+use crate::program::output::about;
 use crate::program::questions;
 use cdpr_robot::{Coordinate, Pose, Robot, TensionDistribution, TensionReference, Wrench, plausible};
 use cdpr_statics::Load;
@@ -103,7 +104,9 @@ impl Preference {
 
     /// As [`Preference::open_robot`], for a robot whose values may be in another unit.
     pub(crate) fn open_robot_in_any_unit(&self, path: &Path) -> Result<Robot, ProgramError> {
-        self.given_to(open_robot_in_any_unit(path)?)
+        let robot = open_robot_in_any_unit(path)?;
+        about(&robot.name);
+        self.given_to(robot)
     }
 
     fn given_to(&self, mut robot: Robot) -> Result<Robot, ProgramError> {

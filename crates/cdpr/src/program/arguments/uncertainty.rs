@@ -88,10 +88,12 @@ impl Uncertainty {
     }
 }
 
-/// The study and the name of the error model in `STUDY:MODEL`.
+/// The study and the name of the error model in `STUDY:MODEL`. A study that is not there is named without the
+/// model.
 fn of_study(path: &Path) -> Option<(PathBuf, String)> {
     let (study, name) = path.to_str()?.rsplit_once(':')?;
-    (!path.exists() && Path::new(study).exists()).then(|| (PathBuf::from(study), name.to_owned()))
+    let is_study = Path::new(study).exists() || study.ends_with(".json") && !name.contains(['/', '\\']);
+    (!path.exists() && is_study).then(|| (PathBuf::from(study), name.to_owned()))
 }
 
 /// An error model of a study, for a robot that has the same parameters as the study's.

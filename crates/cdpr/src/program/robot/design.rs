@@ -211,8 +211,9 @@ fn print(robot: &Robot, found: &Design, seconds: f64) {
     // Choices have no bounds.
     let columns = if found.starts == 0 { 3 } else { 5 };
     let mut rows = table(&["variable", "from", "to", "bound", &per_unit][..columns]);
-    for DesignedVariable { name, unit, from, to, bound, per_unit } in &best.variables {
-        let per_unit = bound.map_or_else(String::new, |_| significant(*per_unit, 3));
+    for DesignedVariable { name, unit, from, to, bound, per_unit, flat } in &best.variables {
+        let worth = || if *flat { "flat".to_owned() } else { significant(*per_unit, 3) };
+        let per_unit = bound.map_or_else(String::new, |_| worth());
         let name = format!("{} [{unit}]", shown(name));
         let cells = [name, value(*from), value(*to), bound.unwrap_or_default().to_owned(), per_unit];
         rows.add_row(&cells[..columns]);

@@ -264,8 +264,8 @@ fn print_shared(summary: &WorkspaceSummary) {
     let shared = shares().filter(|share| *share < OWN).count();
     if shared > 0 {
         print_sentence(&format!(
-            "At {shared} of {} positions the platform swings in many motions of the cables, and its frequency is that \
-             of the one that has most of it: `platform_share` is down to {} % there.",
+            "At {shared} of {} positions no mode is mainly a platform mode, because cable modes are near it: \
+             the frequency is that of the mode with the largest share, `platform_share`, down to {} %.",
             shares().count(),
             significant(100.0 * shares().fold(1.0, f64::min), 2)
         ));

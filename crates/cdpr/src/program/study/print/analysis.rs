@@ -54,9 +54,11 @@ fn print_answer(name: &str, analysis: &Analysis) {
 /// The leading inputs by their first-order shares, and the test that finds each.
 fn print_leading(analysis: &Analysis) {
     let LeadingInputs { rows, captions } = LeadingInputs::of(analysis);
-    let mut lines = table(&LeadingInputs::HEADER);
-    lines.add_rows(rows);
-    println!("{lines}");
+    if !rows.is_empty() {
+        let mut lines = table(&LeadingInputs::HEADER);
+        lines.add_rows(rows);
+        println!("{lines}");
+    }
     captions.iter().for_each(|caption| print_sentence(caption));
 }
 
