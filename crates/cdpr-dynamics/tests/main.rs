@@ -7,6 +7,7 @@ mod derivatives;
 mod drawn;
 mod forced;
 mod moves;
+mod pulleys;
 mod reference;
 mod response;
 mod robots;

@@ -1,17 +1,21 @@
 //! One cable in motion: its unknowns, what moves them, and what it does to the platform.
 
-use super::band::Band;
+mod tangent;
+
+pub(super) use tangent::CableMatrices;
+
 use super::lead::{Lead, Way};
 use super::mesh::{Forces, Material, Mesh, Part, Points, Pull};
 use super::winch::Reeling;
-use cdpr_robot::{Matrix3, Vector3, Vector6};
+use cdpr_robot::{Matrix3, Vector3};
 
 /// Where a cable begins.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Start {
     /// At its exit point.
     Fixed(Vector3<f64>),
-    /// Behind its lead and pulley: one unknown, by which they are longer than at rest.
+    /// Behind its lead and pulley: one unknown, by which they are longer than at rest, and one of a wheel that
+    /// swivels by itself.
     Led(Lead),
     /// Nowhere: it has parted at its exit.
     Loose,
@@ -52,6 +56,11 @@ pub(super) struct Instant {
     /// Unstrained length [m] and its rate [m/s].
     pub(super) length: (f64, f64),
     pub(super) way: Option<Way>,
+    /// How the first point moves with the next one, and with the wheel where that swivels by itself.
+    turning: Matrix3<f64>,
+    swivelling: Option<Vector3<f64>>,
+    /// Velocity of the first point that its mass has not [m/s].
+    massless: Vector3<f64>,
 }
 
 impl Instant {
@@ -70,26 +79,18 @@ pub(super) struct OnPlatform {
     pub(super) mass: f64,
 }
 
-/// Matrices of one cable: of its own unknowns, and with the motions of the platform.
-#[derive(Clone, Debug)]
-pub(super) struct CableMatrices {
-    pub(super) first: usize,
-    pub(super) mass: Vec<f64>,
-    pub(super) stiffness: Band<f64>,
-    pub(super) damping: Band<f64>,
-    pub(super) is_damped: bool,
-    pub(super) coupling: Vec<[Vector6<f64>; 2]>,
-    /// The first unknown that is coupled.
-    pub(super) coupled: usize,
-}
-
 impl CableInMotion<'_> {
     /// Unknowns where the cable begins.
-    fn of_start(&self) -> usize {
-        match (&self.start, &self.mesh) {
-            (Start::Led(_), Some(_)) => 1,
-            (Start::Loose, Some(_)) => 3,
-            _ => 0,
+    pub(super) fn of_start(&self) -> usize {
+        self.mesh.as_ref().map_or(0, |mesh| self.of_start_on(mesh))
+    }
+
+    /// The same on other elements.
+    fn of_start_on(&self, mesh: &Mesh) -> usize {
+        match &self.start {
+            Start::Fixed(_) => 0,
+            Start::Led(lead) => 1 + usize::from(lead.swivels() && mesh.rule.degree > 1),
+            Start::Loose => 3,
         }
     }
 
@@ -117,7 +118,7 @@ impl CableInMotion<'_> {
                 let vector = self.mesh.as_ref().map(|mesh| mesh.at(*share, vectors[k]));
                 <[f64; 3]>::from(vector.unwrap_or_default())
             });
-            own[k][..self.of_start()].iter().copied().chain(inner).collect()
+            own[k][..self.of_start_on(mesh)].iter().copied().chain(inner).collect()
         })
     }
 
@@ -132,20 +133,32 @@ impl CableInMotion<'_> {
     /// The cable at a time, in the memory of another instant; `own` are its unknowns and their rates.
     pub(super) fn at(&self, time: f64, end: &End, own: [&[f64]; 2], at: &mut Instant) {
         let length = self.length_at(time);
+        let next = self.next(end, own);
         let way = match &self.start {
-            Start::Led(lead) => Some(lead.way(&end.position)),
+            Start::Led(lead) => Some(lead.way(&next[0], if self.of_start() > 1 { own[0][1] } else { 0.0 })),
             _ => None,
         };
         (at.length, at.way) = (length, way);
+        (at.turning, at.swivelling, at.massless) = (Matrix3::zeros(), None, Vector3::zeros());
         let Points { positions, velocities } = &mut at.points;
         positions.clear();
         velocities.clear();
         let Some(mesh) = &self.mesh else { return self.straight(end, length, at) };
-        let begin = match &self.start {
-            Start::Fixed(exit) => [*exit, Vector3::zeros()],
-            Start::Led(lead) => way
-                .map_or([Vector3::zeros(); 2], |way| [lead.end(&way, own[0][0]), way.direction * own[1][0]]),
-            Start::Loose => own.map(|own| Vector3::from_column_slice(&own[..3])),
+        let begin = match (&self.start, &way) {
+            (Start::Fixed(exit), _) => [*exit, Vector3::zeros()],
+            (Start::Led(lead), Some(way)) => {
+                if self.has_next() {
+                    (at.turning, at.swivelling) = lead.turning(way, own[0][0]);
+                }
+                at.massless = at.turning * next[1];
+                let mut velocity = way.direction * own[1][0] + at.massless;
+                if let Some(swivelling) = at.swivelling {
+                    velocity += swivelling * own[1][1];
+                    at.massless += (swivelling - way.swivel()) * own[1][1];
+                }
+                [lead.end(way, own[0][0]), velocity]
+            }
+            _ => own.map(|own| Vector3::from_column_slice(&own[..3])),
         };
         for ((vectors, own), [begin, end]) in [positions, velocities]
             .into_iter()
@@ -162,6 +175,20 @@ impl CableInMotion<'_> {
             at.points.velocities[0] += slope * length.1;
         }
         mesh.forces(&self.material, length, &at.points, &mut at.forces);
+    }
+
+    /// Whether it begins behind a lead that turns towards a point of its own.
+    fn has_next(&self) -> bool {
+        self.is_led() && self.size() > self.of_start()
+    }
+
+    /// The point to which its lead turns, and its velocity.
+    fn next(&self, end: &End, own: [&[f64]; 2]) -> [Vector3<f64>; 2] {
+        if self.has_next() {
+            own.map(|own| Vector3::from_column_slice(&own[self.of_start()..][..3]))
+        } else {
+            [end.position, end.velocity]
+        }
     }
 
     /// A straight cable without mass.
@@ -220,16 +247,23 @@ impl CableInMotion<'_> {
         if self.mesh.is_none() {
             return;
         }
-        let mut next = 0;
+        let (mut next, mut more) = (0, Vector3::zeros());
         if let (Start::Led(lead), Some(way)) = (&self.start, &at.way) {
+            let on_first = at.forces.forces[0] + gravity * at.forces.masses[0];
+            more = at.turning.tr_mul(&on_first);
             let [mass, force] = self.of_lead(lead, at, own);
             rates[0] = own[1][0];
             accelerations[0] = (force + at.forces.masses[0] * gravity.dot(&way.direction)) / mass;
-            next = 1;
+            if let Some(swivelling) = &at.swivelling {
+                rates[1] = own[1][1];
+                accelerations[1] = on_first.dot(swivelling) / at.forces.masses[0];
+            }
+            next = self.of_start();
         }
         let first = usize::from(!matches!(self.start, Start::Loose));
         for point in first..at.points.positions.len() - 1 {
-            let mut acceleration = at.forces.forces[point] * (1.0 / at.forces.masses[point]) + gravity;
+            let force = at.forces.forces[point] + if point == 1 { more } else { Vector3::zeros() };
+            let mut acceleration = force * (1.0 / at.forces.masses[point]) + gravity;
             let mut rate = Vector3::from_column_slice(&own[1][next..next + 3]);
             if let Some((velocities, more)) = &at.forces.flow {
                 rate += velocities[point];
@@ -242,12 +276,16 @@ impl CableInMotion<'_> {
     }
 
     /// Kinetic energy without that of the anchor point's mass [J].
-    pub(super) fn kinetic(&self, at: &Instant, own: [&[f64]; 2]) -> f64 {
+    pub(super) fn kinetic(&self, at: &Instant, [_, rates]: [&[f64]; 2]) -> f64 {
         let before_last = at.points.positions.len().saturating_sub(1);
-        let points = at.forces.masses.iter().zip(&at.points.velocities).take(before_last);
-        let mut twice: f64 = points.map(|(mass, velocity)| mass * velocity.norm_squared()).sum();
+        let points = at.forces.masses.iter().zip(&at.points.velocities).take(before_last).enumerate();
+        let own = |(k, (mass, velocity)): (usize, (&f64, &Vector3<f64>))| {
+            let massless = if k == 0 { at.massless } else { Vector3::zeros() };
+            mass * (velocity - massless).norm_squared()
+        };
+        let mut twice: f64 = points.map(own).sum();
         if let (Start::Led(lead), Some(_)) = (&self.start, &self.mesh) {
-            twice += lead.mass(&self.material) * own[1][0] * own[1][0];
+            twice += lead.mass(&self.material) * rates[0] * rates[0];
         }
         0.5 * twice
     }
@@ -277,7 +315,7 @@ impl CableInMotion<'_> {
             if let Start::Led(lead) = &self.start {
                 lost += lead.energy(&self.material, own[0][0], own[1][0])[1];
             }
-            let [position, velocity] = [&at.points.positions[0], &at.points.velocities[0]];
+            let (position, velocity) = (&at.points.positions[0], at.points.velocities[0] - at.massless);
             leaves += self.material.density * (0.5 * velocity.norm_squared() - gravity.dot(position));
         }
         [at.length.1 * leaves, lost]
@@ -294,105 +332,4 @@ impl CableInMotion<'_> {
         let whole = self.mesh.is_none().then_some(2.0 * at.length.0);
         parts.chain(whole).filter_map(move |length| Some((0.5 * length, pulls.next()?)))
     }
-
-    /// Matrices about an instant, and stiffness and damping at the anchor point.
-    pub(super) fn matrices(
-        &self,
-        at: &Instant,
-        lever: &Vector3<f64>,
-        own: [&[f64]; 2],
-    ) -> (CableMatrices, [Matrix3<f64>; 2]) {
-        let size = self.size();
-        let degree = self.mesh.as_ref().map_or(0, |mesh| mesh.rule.degree);
-        let width = (3 * degree + 2).min(size.max(1) - 1);
-        let mut matrices = CableMatrices {
-            first: self.first,
-            mass: vec![0.0; size],
-            stiffness: Band::zeros(size, width),
-            damping: Band::zeros(size, width),
-            is_damped: self.material.damping > 0.0,
-            coupling: vec![[Vector6::zeros(); 2]; size],
-            coupled: size,
-        };
-        let mut at_end = [Matrix3::zeros(); 2];
-        let Some(mesh) = &self.mesh else {
-            if let Some(pull) = at.forces.pulls.first() {
-                let across = at.way.map_or(at.length.0 * pull.stretch, |way| way.free);
-                at_end = [pull.stiffness(at.length.0, across), pull.damping(at.length.0)];
-            }
-            return (matrices, at_end);
-        };
-        let points = at.points.positions.len();
-        let columns: Vec<Columns> = (0..points).map(|point| self.columns(at, point, points)).collect();
-        for (point, columns) in columns.iter().enumerate().take(points - 1) {
-            if let Columns::Own(unknowns) = columns {
-                unknowns.iter().for_each(|(unknown, _)| matrices.mass[*unknown] = at.forces.masses[point]);
-            }
-        }
-        if let Start::Led(lead) = &self.start {
-            matrices.mass[0] = self.of_lead(lead, at, own)[0];
-            let (_, [stiffness, damping]) = lead.pull(&self.material, own[0][0], own[1][0]);
-            matrices.stiffness.add(0, 0, stiffness);
-            matrices.damping.add(0, 0, damping);
-        }
-        let arm = lever.cross_matrix();
-        let pulls = at.forces.pulls.chunks_exact(mesh.rule.pulls.len());
-        for (part, pulls) in mesh.parts(at.length.0).zip(pulls) {
-            for a in 0..=degree {
-                for b in 0..=degree {
-                    let blocks = || part.blocks(&mesh.rule, pulls, [a, b]);
-                    match (&columns[part.first + a], &columns[part.first + b]) {
-                        (Columns::Own(rows), Columns::Own(columns)) if b <= a => {
-                            let [stiffness, damping] = blocks();
-                            for (i, along) in rows {
-                                for (j, other) in columns {
-                                    matrices.stiffness.add(*i, *j, along.dot(&(stiffness * other)));
-                                    matrices.damping.add(*i, *j, along.dot(&(damping * other)));
-                                }
-                            }
-                        }
-                        (Columns::Own(rows), Columns::Platform) => {
-                            let blocks = blocks();
-                            for (i, along) in rows {
-                                matrices.coupled = matrices.coupled.min(*i);
-                                for (coupling, block) in matrices.coupling[*i].iter_mut().zip(&blocks) {
-                                    let pull = block.tr_mul(along);
-                                    let moment = -arm.tr_mul(&pull);
-                                    let both = [pull.x, pull.y, pull.z, moment.x, moment.y, moment.z];
-                                    *coupling += Vector6::from(both);
-                                }
-                            }
-                        }
-                        (Columns::Platform, Columns::Platform) => {
-                            let blocks = blocks();
-                            (0..2).for_each(|k| at_end[k] += blocks[k]);
-                        }
-                        _ => {}
-                    }
-                }
-            }
-        }
-        (matrices, at_end)
-    }
-
-    /// The unknowns that move a point.
-    fn columns(&self, at: &Instant, point: usize, points: usize) -> Columns {
-        if point + 1 == points {
-            return Columns::Platform;
-        }
-        let (at_start, axes) = (self.of_start(), [Vector3::x(), Vector3::y(), Vector3::z()]);
-        match (&self.start, &at.way) {
-            (Start::Fixed(_), _) if point == 0 => Columns::Fixed,
-            (Start::Led(_), Some(way)) if point == 0 => Columns::Own(vec![(0, way.direction)]),
-            (Start::Loose, _) if point == 0 => Columns::Own((0..3).map(|k| (k, axes[k])).collect()),
-            _ => Columns::Own((0..3).map(|k| (at_start + 3 * (point - 1) + k, axes[k])).collect()),
-        }
-    }
-}
-
-/// The unknowns that move a point, each with its direction.
-enum Columns {
-    Fixed,
-    Platform,
-    Own(Vec<(usize, Vector3<f64>)>),
 }

@@ -63,6 +63,9 @@ impl System<'_> {
                 if cable.mesh.is_some() {
                     state[cable.first] = lead.longer_for(&now);
                 }
+                if cable.of_start() > 1 {
+                    state[cable.first + 1] = lead.swivelled_for(&now);
+                }
             }
         }
     }
@@ -94,8 +97,8 @@ impl System<'_> {
             let cable = &mut self.cables[place];
             cable.length = cable.length_at(time).0;
             cable.reeling.clear();
-            // Its first point has three unknowns, where a lead has one, and a fixed point none.
-            let of_lead = usize::from(matches!(cable.start, Start::Led(_)));
+            // Its first point has three unknowns, where a lead has one or two, and a fixed point none.
+            let of_lead = cable.of_start();
             if !matches!(cable.start, Start::Loose) {
                 let [own, rates] = &mut parts[place];
                 own.splice(..of_lead, points.positions[0].iter().copied());
@@ -135,6 +138,9 @@ impl System<'_> {
             if slack[cable.index] {
                 let least = cable.material.damping_of_shocks(&chain, cable.length);
                 cable.material.damping = cable.material.damping.max(least);
+            }
+            if let Start::Led(lead) = &mut cable.start {
+                *lead = lead.straight();
             }
             cable.mesh = Some(chain.clone());
         }

@@ -1,19 +1,26 @@
 //! How a cable comes to the point where its free part begins.
 //!
-//! Lead and arc are a spring of the unstrained length l that is longer by e than at rest. Its end moves along
-//! the direction u of a straight cable to the anchor point, from its leave point B, both corrected by what
-//! sag changes at rest:
+//! Lead and arc are a spring of the unstrained length l that is longer by e than at rest. Material at its end
+//! is at r_0, on the tangent of the wheel at the leave point B. The angle ψ of B follows the straight line to
+//! the next point r_1 of the cable, with the constant difference that it has at rest. The wheel's yaw θ is an
+//! unknown with the scale ρ_0, its distance from B at rest:
 //!
 //! ```text
-//! r_0 = B + (e - arc + arc at rest) u
-//! (m_0 + μ l/3) ë = (f_0 + m_0 g) u - T(e) - w u_z e/(1 + ε)                                       (X4)
+//! r_0 = B(θ, ψ) + x u(θ, ψ),    x = e - arc(ψ) + arc at rest,    y = ρ_0 θ
+//! dr_0 = u de + k dy + G dr_1,    k = (ρ + x sin ψ)/ρ_0 s,    G = x n dψ/dr_1                      (X4)
+//! (m_0 + μ l/3) ë = (f_0 + m_0 g) u - T(e) - w u_z e/(1 + ε)
+//! m_0 ÿ = (f_0 + m_0 g) k,    m_1 r̈_1 = f_1 + m_1 g + Gᵀ (f_0 + m_0 g)
 //! ```
 //!
-//! The last term is the weight of the cable that has come out. Cable on a pulley has no mass.
+//! with the distance ρ of B from the swivel axis, s across the wheel and n normal to u in its plane. All forces
+//! are derivatives of one potential. The last term of ë is the weight of the cable that has come out. Cable on
+//! a pulley has no mass, and the wheel has none. The first link of a chain shows where the wheel is: there θ
+//! follows the line to r_1, too, and G has its part.
 
 use super::mesh::{Material, Pull};
-use cdpr_cable::Guide;
+use cdpr_cable::{Guide, Straight};
 use cdpr_robot::{Matrix3, Robot, Vector3};
+use std::f64::consts::PI;
 
 /// A lead and a pulley. Cable on them has no mass of its own; a third of that of a lead is at its end.
 #[derive(Clone, Copy, Debug)]
@@ -27,12 +34,29 @@ pub(super) struct Lead {
     stretched: f64,
     /// Change of the tension by the weight of the cable that comes out [N/m].
     slide: f64,
-    /// Direction and leave point at rest, minus those of a straight cable.
-    lean: Vector3<f64>,
-    shift: Vector3<f64>,
+    bend: Bend,
+    swivel: Option<Swivel>,
 }
 
-/// Where the free part begins, for a place of the anchor point.
+/// By how much a cable leaves otherwise than along the line to its next point, at rest.
+#[derive(Clone, Copy, Debug)]
+enum Bend {
+    /// Without pulley: a vector that is added to the direction.
+    Lean(Vector3<f64>),
+    /// On a wheel: the angle of the leave point is greater by this [rad].
+    Turned(f64),
+}
+
+/// A wheel whose yaw is an unknown.
+#[derive(Clone, Copy, Debug)]
+struct Swivel {
+    /// Where the wheel is at rest: a unit vector from the swivel axis, in the levelled frame.
+    outwards: Vector3<f64>,
+    /// The unknown is its yaw times this distance [m].
+    arm: f64,
+}
+
+/// Where the free part begins, for a place of its next point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Way {
     pub(super) point: Vector3<f64>,
@@ -40,23 +64,35 @@ pub(super) struct Way {
     /// Stretched length before it [m], and that of a straight cable beyond it [m].
     pub(super) guided: f64,
     pub(super) free: f64,
+    /// How it turns, by θ and by ψ.
+    turns: [Turn; 2],
 }
 
-/// A cable at rest where its free part begins.
+/// How the end of a lead moves where its direction turns.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rest {
-    pub(super) anchor: Vector3<f64>,
-    pub(super) leave: Vector3<f64>,
-    pub(super) direction: Vector3<f64>,
-    pub(super) tension: f64,
+struct Turn {
+    /// Unit vector of the motion, and towards the axis about which it turns.
+    along: Vector3<f64>,
+    inwards: Vector3<f64>,
+    /// Distance of the leave point from this axis [m], and how much of the length beyond it counts.
+    distance: f64,
+    share: f64,
+    /// Angle for each motion of the next point [rad/m].
+    slope: Vector3<f64>,
 }
 
 impl Lead {
-    /// Lead and pulley of cable `i`; `None` for a cable that begins at its exit point.
-    pub(super) fn new(robot: &Robot, i: usize, material: &Material, rest: &Rest) -> Option<Self> {
+    /// Lead and pulley of cable `i`, with its direction behind them and its tension at rest; `None` for a
+    /// cable that begins at its exit point.
+    pub(super) fn new(
+        robot: &Robot,
+        i: usize,
+        material: &Material,
+        (direction, tension): (&Vector3<f64>, f64),
+    ) -> Option<Self> {
         let level = robot.gravity.level().copied();
         let guide = robot.cables[i].guide(level.as_ref())?;
-        let strain = material.cable.strain(rest.tension);
+        let strain = material.cable.strain(tension);
         let mut lead = Self {
             guide,
             entry: robot.cables[i].exit_point,
@@ -64,30 +100,130 @@ impl Lead {
             unstrained: 1.0,
             stretched: 1.0,
             slide: 0.0,
-            lean: Vector3::zeros(),
-            shift: Vector3::zeros(),
+            bend: Bend::of(&guide),
+            swivel: None,
         };
-        let straight = lead.way(&rest.anchor);
+        let axis = Vector3::from(guide.entry.axis());
+        let arc = guide.radius * (PI - angle_of(&lead.levelled(direction), &axis));
         let up = -robot.gravity.vector() / robot.gravity.magnitude().max(f64::MIN_POSITIVE);
-        lead.stretched = straight.guided;
-        lead.unstrained = straight.guided / (1.0 + strain);
-        lead.slide = material.cable.weight_per_length * rest.direction.dot(&up) / (1.0 + strain);
-        lead.lean = rest.direction - straight.direction;
-        lead.shift = rest.leave - straight.point;
+        lead.stretched = guide.lead + arc;
+        lead.unstrained = lead.stretched / (1.0 + strain);
+        lead.slide = material.cable.weight_per_length * direction.dot(&up) / (1.0 + strain);
         Some(lead)
     }
 
-    /// The way of a straight cable to `anchor`, corrected by what sag changes at rest.
-    pub(super) fn way(&self, anchor: &Vector3<f64>) -> Way {
-        let span = anchor - self.entry;
-        let end = self.level.map_or(span, |level| level * span);
-        let (leave, free, guided) = match self.guide.straight(end) {
-            Some(straight) => (straight.leave, straight.free, straight.guided),
-            None => (Vector3::zeros(), end.norm(), self.guide.lead),
+    /// For a cable that leaves along `direction` where its next point is at `next`; its wheel swivels by
+    /// itself.
+    pub(super) fn bent(self, direction: &Vector3<f64>, next: &Vector3<f64>) -> Self {
+        let straight = self.straight().way(next, 0.0).direction;
+        if self.guide.radius == 0.0 {
+            return Self { bend: Bend::Lean(direction - straight), ..self };
+        }
+        let axis = Vector3::from(self.guide.entry.axis());
+        let [direction, straight] = [direction, &straight].map(|direction| self.levelled(direction));
+        let [angle, from] = [direction, straight].map(|direction| angle_of(&direction, &axis));
+        let across = [direction, straight].map(|direction| direction - axis * axis.dot(&direction));
+        let outwards = across.iter().find_map(|across| across.try_normalize(1e-9));
+        let outwards = outwards.unwrap_or_else(|| perpendicular(&axis));
+        let arm = self.guide.radius * (1.0 + angle.cos()).max(LEAST_ARM);
+        let swivel = Some(Swivel { outwards, arm });
+        Self { bend: Bend::Turned(angle - from), swivel, ..self }
+    }
+
+    /// For a cable that leaves along the line to its next point.
+    pub(super) fn straight(self) -> Self {
+        Self { bend: Bend::of(&self.guide), swivel: None, ..self }
+    }
+
+    /// Whether it has a wheel that swivels by itself.
+    pub(super) fn swivels(&self) -> bool {
+        self.swivel.is_some()
+    }
+
+    fn levelled(&self, vector: &Vector3<f64>) -> Vector3<f64> {
+        self.level.map_or(*vector, |level| level * vector)
+    }
+
+    fn back(&self, vector: &Vector3<f64>) -> Vector3<f64> {
+        self.level.map_or(*vector, |level| level.tr_mul(vector))
+    }
+
+    /// The way of a cable to its next point; `swivelled` [m] is the unknown of a wheel that swivels by itself.
+    pub(super) fn way(&self, next: &Vector3<f64>, swivelled: f64) -> Way {
+        let end = self.levelled(&(next - self.entry));
+        match (self.bend, self.guide.straight(end)) {
+            (Bend::Turned(more), Some(straight)) => {
+                let at = self.on_wheel(&end, &straight, [more, swivelled]);
+                let turn = |turn: Turn| Turn {
+                    along: self.back(&turn.along),
+                    inwards: self.back(&turn.inwards),
+                    slope: self.back(&turn.slope),
+                    ..turn
+                };
+                Way {
+                    point: self.entry + self.back(&at.point),
+                    direction: self.back(&at.direction),
+                    turns: at.turns.map(turn),
+                    ..at
+                }
+            }
+            (bend, _) => self.from_point(&(next - self.entry), bend),
+        }
+    }
+
+    /// The way from a wheel, in the levelled frame from D.
+    fn on_wheel(&self, end: &Vector3<f64>, straight: &Straight, [more, swivelled]: [f64; 2]) -> Way {
+        let axis = Vector3::from(self.guide.entry.axis());
+        let away = end - axis * axis.dot(end);
+        let (x, radius) = (away.norm().max(f64::MIN_POSITIVE), self.guide.radius);
+        let outwards = away / x;
+        let turned = self.swivel.map_or(outwards, |Swivel { outwards, arm }| {
+            let (sin, cos) = (swivelled / arm).sin_cos();
+            outwards * cos + axis.cross(&outwards) * sin
+        });
+        let to_end = (end - straight.leave) / straight.free;
+        let from = angle_of(&to_end, &axis);
+        let (sin, cos) = (from + more).sin_cos();
+        let (normal, direction) = (turned * cos + axis * sin, turned * sin - axis * cos);
+        let about_axis = Turn {
+            along: axis.cross(&turned),
+            inwards: -turned,
+            distance: radius * (1.0 + cos),
+            share: sin,
+            slope: axis.cross(&outwards) / x,
         };
-        let back = |vector: Vector3<f64>| self.level.map_or(vector, |level| level.tr_mul(&vector));
-        let direction = back(end - leave) / free.max(f64::MIN_POSITIVE) + self.lean;
-        Way { point: self.entry + back(leave) + self.shift, direction: direction.normalize(), guided, free }
+        let about_leave = Turn {
+            along: normal,
+            inwards: -direction,
+            distance: 0.0,
+            share: 1.0,
+            slope: (outwards * from.cos() + axis * from.sin()) / straight.free,
+        };
+        Way {
+            point: turned * (radius * (1.0 + cos)) + axis * (radius * sin),
+            direction,
+            guided: straight.guided - radius * more,
+            free: straight.free,
+            turns: [about_axis, about_leave],
+        }
+    }
+
+    /// The way from the entry, to a point from there.
+    fn from_point(&self, end: &Vector3<f64>, bend: Bend) -> Way {
+        let free = end.norm().max(f64::MIN_POSITIVE);
+        let to_end = end / free;
+        let leaning = to_end + if let Bend::Lean(lean) = bend { lean } else { Vector3::zeros() };
+        let direction = leaning.normalize();
+        let first = perpendicular(&direction);
+        let turn = |along: Vector3<f64>| Turn {
+            along,
+            inwards: -direction,
+            distance: 0.0,
+            share: 1.0,
+            slope: (along - to_end * to_end.dot(&along)) / (free * leaning.norm()),
+        };
+        let turns = [turn(first), turn(direction.cross(&first))];
+        Way { point: self.entry, direction, guided: self.guide.lead, free, turns }
     }
 
     /// Unstrained length [m].
@@ -97,7 +233,46 @@ impl Lead {
 
     /// Place of the end of lead and arc that are longer by `longer` [m] than at rest.
     pub(super) fn end(&self, way: &Way, longer: f64) -> Vector3<f64> {
-        way.point + way.direction * (longer - (way.guided - self.stretched))
+        way.point + way.direction * self.beyond(way, longer)
+    }
+
+    /// Length between the leave point and the end [m].
+    fn beyond(&self, way: &Way, longer: f64) -> f64 {
+        longer - (way.guided - self.stretched)
+    }
+
+    /// How the end moves with the next point, G, and with the unknown of a wheel that swivels by itself.
+    pub(super) fn turning(&self, way: &Way, longer: f64) -> (Matrix3<f64>, Option<Vector3<f64>>) {
+        let beyond = self.beyond(way, longer);
+        let by = |turn: &Turn| turn.along * turn.slope.transpose() * turn.radius(beyond);
+        let [about_axis, about_leave] = &way.turns;
+        match &self.swivel {
+            Some(Swivel { arm, .. }) => {
+                (by(about_leave), Some(about_axis.along * (about_axis.radius(beyond) / arm)))
+            }
+            None => (by(about_axis) + by(about_leave), None),
+        }
+    }
+
+    /// Stiffness that a force on the end has for the next point, because the end goes along circles; that of
+    /// a wheel that swivels by itself with the first unknown, and its own.
+    pub(super) fn bending(
+        &self,
+        way: &Way,
+        longer: f64,
+        force: &Vector3<f64>,
+    ) -> (Matrix3<f64>, Option<[f64; 2]>) {
+        let beyond = self.beyond(way, longer);
+        let own = |turn: &Turn| -turn.radius(beyond) * turn.inwards.dot(force);
+        let of = |turn: &Turn| turn.slope * turn.slope.transpose() * own(turn);
+        let [about_axis, about_leave] = &way.turns;
+        match &self.swivel {
+            Some(Swivel { arm, .. }) => {
+                let with_longer = -about_axis.share * about_axis.along.dot(force) / arm;
+                (of(about_leave), Some([with_longer, own(about_axis) / (arm * arm)]))
+            }
+            None => (of(about_axis) + of(about_leave), None),
+        }
     }
 
     /// Tension of the lead, and its slopes by `longer` and by its rate.
@@ -114,6 +289,13 @@ impl Lead {
         self.unstrained * other.stretched / other.unstrained - self.stretched
     }
 
+    /// The unknown of its wheel where that is as at the rest of another state [m].
+    pub(super) fn swivelled_for(&self, other: &Self) -> f64 {
+        let (Some(Swivel { outwards, arm }), Some(other)) = (&self.swivel, &other.swivel) else { return 0.0 };
+        let axis = Vector3::from(self.guide.entry.axis());
+        arm * axis.dot(&outwards.cross(&other.outwards)).atan2(outwards.dot(&other.outwards))
+    }
+
     /// Energy [J] of the lead, and power lost in it [W].
     pub(super) fn energy(&self, material: &Material, longer: f64, rate: f64) -> [f64; 2] {
         let (pull, _) = self.pull(material, longer, rate);
@@ -125,4 +307,40 @@ impl Lead {
     pub(super) fn mass(&self, material: &Material) -> f64 {
         material.density * self.guide.lead * (self.unstrained / self.stretched) / 3.0
     }
+}
+
+impl Turn {
+    /// Distance of the end from the axis about which it turns [m].
+    fn radius(&self, beyond: f64) -> f64 {
+        self.distance + self.share * beyond
+    }
+}
+
+impl Way {
+    /// Unit vector along which a wheel that swivels moves the end.
+    pub(super) fn swivel(&self) -> Vector3<f64> {
+        self.turns[0].along
+    }
+}
+
+impl Bend {
+    /// That of a cable which leaves along the line to its next point.
+    fn of(guide: &Guide) -> Self {
+        if guide.radius > 0.0 { Self::Turned(0.0) } else { Self::Lean(Vector3::zeros()) }
+    }
+}
+
+/// Least distance of a leave point from its swivel axis with which the unknown is scaled, relative to the
+/// radius of the wheel.
+const LEAST_ARM: f64 = 0.1;
+
+/// The angle of the leave point of a cable that leaves in a direction, from the wheel's outermost point.
+fn angle_of(direction: &Vector3<f64>, axis: &Vector3<f64>) -> f64 {
+    let along = axis.dot(direction);
+    (direction - axis * along).norm().atan2(-along)
+}
+
+/// A unit vector across a unit vector.
+fn perpendicular(direction: &Vector3<f64>) -> Vector3<f64> {
+    direction.cross(&if direction.x.abs() < 0.8 { Vector3::x() } else { Vector3::y() }).normalize()
 }

@@ -1,7 +1,7 @@
 //! How a motion is computed, and how it begins.
 
 use super::cable::{CableInMotion, Start};
-use super::lead::{Lead, Rest};
+use super::lead::Lead;
 use super::mesh::{Material, Mesh, Points, Rule};
 use super::system::{Body, System};
 use crate::error::{DynamicsError, positive};
@@ -164,8 +164,7 @@ impl Settings {
         let begin = lift(free.force.x, free.exit_vertical_force());
         let tension = begin.norm();
         let direction = if tension > 0.0 { begin / tension } else { (end - leave).normalize() };
-        let rest = Rest { anchor: end, leave, direction, tension };
-        let lead = Lead::new(robot, index, &material, &rest);
+        let mut lead = Lead::new(robot, index, &material, (&direction, tension));
         let tension_at = |share: f64| free.tension(FromLeavePoint(share * free.unstrained_length));
         let mesh = (density > 0.0).then(|| {
             let mut mesh = Mesh::equal(rule, elements);
@@ -181,8 +180,11 @@ impl Settings {
         let mut own = Vec::new();
         if let Some(mesh) = &mesh {
             material.damping = material.damping.max(material.damping_of_shocks(mesh, free.unstrained_length));
-            own.extend(lead.iter().map(|_| 0.0));
             let shares = mesh.shares();
+            if mesh.rule.degree > 1 {
+                lead = lead.map(|lead| lead.bent(&direction, &point(shares[1])));
+            }
+            own.resize(lead.map_or(0, |lead| 1 + usize::from(lead.swivels())), 0.0);
             own.extend(shares[1..shares.len() - 1].iter().flat_map(|share| <[f64; 3]>::from(point(*share))));
         }
         let cable = CableInMotion {
