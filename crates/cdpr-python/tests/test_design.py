@@ -89,6 +89,8 @@ def test_what_no_robot_can_do_has_a_reason_and_wrong_designs_are_refused():
     lost = cdpr.design(mass_on_two_cables(), apart(limits={"position": 0.1}))
     assert lost.robot is None and numpy.isnan(lost.objective) and "its limit" in lost.reason
     assert len(lost.to_dataframe()) == 0 and not lost.optimal
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed").use("svg")
+    assert not lost.plot().axes[0].patches
     with pytest.raises(cdpr.InputError, match="pareto is missing"):
         cdpr.design_front(mass_on_two_cables(), apart())
     pareto = {"output": "stiffness", "over": "worst"}
