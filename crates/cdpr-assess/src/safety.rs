@@ -73,10 +73,15 @@ pub struct Swing {
     /// Least breaking force over greatest tension of the other cables, and the index of that cable; `None`
     /// where a breaking force is not known.
     pub safety_factor: Option<(f64, usize)>,
+    /// The same with tensions that are greater by their `difference`.
+    pub factor_at_least: Option<f64>,
     /// Whether P or an anchor point comes below the ground, as in [`BrokenRest::below_ground`].
     pub below_ground: bool,
     /// Differences between two computations of the motion.
     pub difference: Difference,
+    /// Whether a tension that is greater by its `difference` would be above a greatest tension or a breaking
+    /// force.
+    pub may_be_overloaded: bool,
 }
 
 impl Swing {
@@ -237,6 +242,8 @@ fn swing_without(
         let [exit, anchor] = series.end_peaks[*i];
         tensions[*i] = [anchor, exit];
     }
+    let more = |tension: f64| tension + series.difference.tension;
+    let more: Vec<[f64; 2]> = tensions.iter().map(|ends| ends.map(more)).collect();
     let at_end = series.samples.last().map_or(0.0, |last| (last.pose.position - from.position).norm());
     let greatest = kept.iter().max_by(|a, b| series.peaks[**a].0.total_cmp(&series.peaks[**b].0));
     Ok(Swing {
@@ -245,6 +252,8 @@ fn swing_without(
         moves_away: at_end >= NEARLY * series.excursion.distance,
         out_of_limits: beyond(robot, broken, &tensions),
         safety_factor: safety_factor(robot, &kept, &tensions),
+        factor_at_least: safety_factor(robot, &kept, &more).map(|(factor, _)| factor),
+        may_be_overloaded: beyond(robot, broken, &more).iter().any(OutOfLimits::is_too_much),
         below_ground: series.samples.iter().any(|sample| is_below_floor(robot, from, &sample.pose)),
         difference: series.difference,
     })

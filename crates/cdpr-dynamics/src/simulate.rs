@@ -103,7 +103,7 @@ pub fn simulate_controlled(
 }
 
 /// Elements of taut cables that are tried in turn after [`Discretization::TAUT`].
-const FINER: [usize; 2] = [6, 12];
+const FINER: [usize; 3] = [6, 12, 24];
 
 /// They are fine enough where a coarser computation moves the platform otherwise by this length [m]: it errs
 /// ten times as much and more.

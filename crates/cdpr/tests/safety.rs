@@ -310,3 +310,34 @@ fn a_factor_in_the_table_is_the_least_of_rest_and_motion() {
     let row = printed.lines().find(|line| line.starts_with("│ 1 ")).unwrap();
     assert!(row.contains(&format!(" {} ", cdpr_robot::significant(rest, 3))), "{row} {rest}");
 }
+
+#[test]
+fn a_peak_has_the_difference_of_its_own_break_and_a_factor_that_is_known() {
+    let folder = TempDir::new().unwrap();
+    let robot = point_mass(&folder, &FOUR, false);
+    let mut file: serde_json::Value = serde_json::from_slice(&std::fs::read(&robot).unwrap()).unwrap();
+    let cable =
+        json!({"section": 1e-5, "youngs_modulus": 5e10, "linear_density": 0.08, "breaking_force": 9000});
+    (file["cable"], file["tension_limits"]["max"]) = (cable, json!(9000));
+    std::fs::write(&robot, file.to_string()).unwrap();
+    let call = ["safety", &robot, "--pose", "1,0.5,1.5", "--with", "swing=1"];
+    let (found, printed) = (answer(&call), text(cdpr(&call).stdout));
+    let cases = found["broken"].as_array().unwrap();
+    let peak = |case: &serde_json::Value| case["swing"]["greatest_tension"]["tension"].as_f64().unwrap();
+    let differ = |case: &serde_json::Value| case["swing"]["tension_difference"].as_f64().unwrap();
+    let worst = cases.iter().max_by(|a, b| peak(a).total_cmp(&peak(b))).unwrap();
+    assert!(cases.iter().any(|case| differ(case) > 1.5 * differ(worst)), "{found}");
+    let said = format!("two computations of it differ by up to {} N.", significant(differ(worst), 2));
+    assert!(printed.replace('\n', " ").contains(&said), "{said}: {printed}");
+    let mut marked = 0;
+    for (case, name) in cases.iter().zip(1..) {
+        let row = printed.lines().find(|line| line.starts_with(&format!("│ {name} "))).unwrap();
+        assert_eq!(row.contains("┆ ~ "), differ(case) > 0.1 * peak(case), "{row} {case}");
+        marked += usize::from(row.contains("┆ ~ "));
+        let least = 9000.0 / (peak(case) + differ(case));
+        let stated = case["swing"]["safety_factor_at_least"].as_f64().unwrap();
+        assert!((stated / least - 1.0).abs() < 1e-9, "{case}");
+        assert!(row.contains(&format!(" > {} ", least.floor())), "{row} {least}");
+    }
+    assert!((1..cases.len()).contains(&marked), "{printed}");
+}

@@ -191,6 +191,9 @@ fn a_cable_that_is_cut_at_either_end_is_slack_only_if_it_was_so_before() {
         let found = cdpr(&call);
         let summary = text(found.stdout);
         assert!(summary.contains("\u{2506} no, cut") && !summary.contains("yes"), "{at}: {summary}");
+        // Without the cable it rests elsewhere.
+        assert!(summary.contains("from its start"), "{summary}");
+        assert!(summary.contains("Its start is at (0.2, 0, 2) m"), "{summary}");
         let found = answer(&call);
         let cable = |k: usize| &found["cables"][k];
         assert!(cable(2)["slack"] == false && cable(2)["cut_at_s"] == 0.01, "{found}");

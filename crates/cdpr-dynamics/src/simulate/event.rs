@@ -2,10 +2,11 @@
 
 use super::winch::{Profile, Reeling, WinchLengths};
 use crate::error::DynamicsError;
-use cdpr_robot::{JsonError, Robot, Vector3, Vector6, from_json};
+use cdpr_robot::{JsonError, Vector3, Vector6, frame, from_json, short, significant};
 use cdpr_statics::DirectProblem;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::f64::consts::PI;
 
 /// A change at a time.
 #[derive(Clone, Debug, PartialEq)]
@@ -224,8 +225,13 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
             Change::Payload(payload) => {
                 mass += payload;
                 if !(payload.abs() <= MOST && mass > 0.0) {
-                    let expected = "a payload [kg] that leaves platform and payload a mass above zero";
-                    return wrong("payload", format!("{payload:?}"), expected.to_owned());
+                    let expected = match payload.abs() <= MOST {
+                        true => {
+                            "a payload [kg] that leaves platform and payload a mass above zero".to_owned()
+                        }
+                        false => format!("a payload of {MOST:.0e} kg at most"),
+                    };
+                    return wrong("payload", format!("{payload:?}"), expected);
                 }
             }
             Change::Cut { cable, .. } if !exists(*cable) => {
@@ -233,10 +239,10 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
             }
             Change::Cut { .. } => {}
             Change::Wrench { force, moment } => {
-                for (name, vector) in [("force", force), ("moment", moment)] {
+                for (name, vector, unit) in [("force", force, "N"), ("moment", moment, "N m")] {
                     if !vector.iter().all(|component| component.abs() <= MOST) {
                         let value = format!("{:?}", vector.as_slice());
-                        return wrong(name, value, format!("three numbers of {MOST:.0e} at most"));
+                        return wrong(name, value, format!("three numbers of {MOST:.0e} {unit} at most"));
                     }
                 }
                 if robot.platform.point && moment.norm() > 0.0 {
@@ -245,22 +251,17 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
                 }
             }
             Change::Displace(motion) => {
-                if let Some((field, value, expected)) = fault_of_displacement(robot, event.time, motion) {
-                    return wrong(&field, value, expected.to_owned());
+                if let Some(fault) = fault_of_displacement(problem, event.time, motion, &before) {
+                    return wrong(&fault.0, fault.1, fault.2);
                 }
             }
+            Change::Shorten { cable, .. } if !exists(*cable) => {
+                return wrong("shorten.cable", (cable + 1).to_string(), cables);
+            }
             Change::Shorten { cable, by, over, .. } => {
-                if !exists(*cable) {
-                    return wrong("shorten.cable", (cable + 1).to_string(), cables);
-                }
-                let length = problem.lengths()[*cable];
-                if !(by.is_finite() && *by < 0.9 * length && *by > -10.0 * length) {
-                    let expected = format!("less than 90 % of the cable's {length:.4} m");
-                    return wrong("shorten.by", format!("{by:?}"), expected);
-                }
-                if !(over.is_finite() && *over > 0.0) {
-                    let expected = "a duration [s] above zero".to_owned();
-                    return wrong("shorten.over", format!("{over:?}"), expected);
+                let lengths = lengths_at(problem.lengths(), &before, f64::INFINITY)[*cable];
+                if let Some(fault) = fault_of_ramp(*by, *over, [problem.lengths()[*cable], lengths]) {
+                    return wrong(fault.0, fault.1, fault.2);
                 }
             }
             Change::Lengths(table) => {
@@ -288,25 +289,60 @@ fn fault_of_parted(event: &Event, before: &[&Event]) -> Option<(&'static str, St
         own == cable && (place == CutAt::Anchor || at.is_none_or(|at| at == place))
     };
     let expected =
-        |one: &&Event| format!("a cable that is still there, not one that parts at {:?} s", one.time);
+        |one: &&Event| format!("a cable that is still there, not one that parts at {} s", short(one.time));
     before.iter().find(has_parted).map(|one| (field, (cable + 1).to_string(), expected(one)))
 }
 
 /// What of a displacement is not possible at a time [s].
 fn fault_of_displacement(
-    robot: &Robot,
+    problem: &DirectProblem,
     time: f64,
     motion: &Vector6<f64>,
-) -> Option<(String, String, &'static str)> {
+    before: &[&Event],
+) -> Option<(String, String, String)> {
+    /// A half turn [rad], with its rounding. Every rotation is such a turn or less.
+    const HALF_TURN: f64 = PI + 1e-3;
+    let robot = problem.robot();
     if time != 0.0 {
-        let expected = "0: a motion begins there, and no platform jumps later";
+        let expected = "0: a motion begins there, and no platform jumps later".to_owned();
         return Some(("t".to_owned(), format!("{time:?}"), expected));
     }
-    let free = robot.freedoms();
+    let (free, text) = (robot.freedoms(), |numbers: &[f64]| format!("{numbers:?}"));
     let is_possible = |k: &usize| motion[*k].is_finite() && (motion[*k] == 0.0 || free.contains(*k));
-    let k = (0..6).find(|k| !is_possible(k))?;
-    let expected = "a number, 0 for a motion that the platform has not";
-    Some((format!("displace[{k}]"), format!("{:?}", motion[k]), expected))
+    if let Some(k) = (0..6).find(|k| !is_possible(k)) {
+        let expected = "a number, 0 for a motion that the platform has not".to_owned();
+        return Some((format!("displace[{k}]"), format!("{:?}", motion[k]), expected));
+    }
+    let field = "displace".to_owned();
+    if before.iter().any(|event| matches!(event.change, Change::Displace(_))) {
+        let expected = "one displacement: a motion begins at one place".to_owned();
+        return Some((field, text(motion.as_slice()), expected));
+    }
+    let sides = frame(robot).map(|[low, high]| high - low);
+    let size = problem.lengths().iter().copied().chain(sides).fold(0.0, f64::max);
+    let [translation, rotation] = [0, 3].map(|first| motion.fixed_rows::<3>(first).into_owned());
+    if translation.norm() > size {
+        let expected = format!("a translation of {} m at most, the size of the robot", significant(size, 4));
+        return Some((field, text(translation.as_slice()), expected));
+    }
+    (rotation.norm() > HALF_TURN).then(|| {
+        let expected = "a rotation vector of 3.1416 rad at most, a half turn".to_owned();
+        (field, text(rotation.as_slice()), expected)
+    })
+}
+
+/// What of a winch that takes in or pays out cable is not possible. The cable has one length at rest and one
+/// after what earlier events do [m].
+fn fault_of_ramp(by: f64, over: f64, [length, left]: [f64; 2]) -> Option<(&'static str, String, String)> {
+    if !(by.is_finite() && by < left - 0.1 * length && by > left - 11.0 * length) {
+        let [least, most] = [left - 11.0 * length, left - 0.1 * length].map(|by| significant(by, 4));
+        let events = if left == length { "" } else { " after earlier events" };
+        let left = significant(left, 4);
+        let expected = format!("{least} to {most} m: the cable has {left} m{events}");
+        return Some(("shorten.by", format!("{by:?}"), expected));
+    }
+    (!(over.is_finite() && over > 0.0))
+        .then(|| ("shorten.over", format!("{over:?}"), "a duration [s] above zero".to_owned()))
 }
 
 /// The lengths at a time [m] after what winches have done until then.

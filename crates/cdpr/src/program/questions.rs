@@ -9,7 +9,7 @@ use crate::program::said;
 use cdpr_assess::{HELD, WorkspaceSummary, doubtful_rest};
 use cdpr_dynamics::moves::SetPoint;
 use cdpr_dynamics::simulate::{Change, Event, Series};
-use cdpr_robot::{Doubt, Pose, Robot, Vector3, Wrench, place_of, plausible, rounded, shown};
+use cdpr_robot::{Doubt, Pose, Robot, Vector3, Wrench, place_of, plausible, rounded, short, shown};
 use cdpr_statics::{DirectSolution, Load};
 use cdpr_study::{Access, ErrorModel, InputKind, StoredStudy, Study, is_standard_input, read_text};
 use serde::Serialize;
@@ -227,17 +227,20 @@ pub(crate) fn about_events(events: &[Event], payload: f64, until: f64) {
     let late = order.iter().find(|(_, event)| event.time > until).map(|(i, event)| {
         let (why, meant) =
             (format!("the motion ends at {until} s, before it"), "a later end, or an earlier event");
-        Doubt::new(format!("event {}, t", i + 1), format!("{} s", event.time), why, meant)
+        Doubt::new(format!("event {}, t", i + 1), format!("{} s", short(event.time)), why, meant)
     });
     let mut left = payload;
     let too_much = order.iter().find_map(|(i, event)| {
         let Change::Payload(change) = event.change else { return None };
         left += change;
-        let why =
-            format!("{} kg of it are the platform's own mass, its inertia unchanged", rounded(-left, 9));
+        let why = format!(
+            "{} kg of it are the platform's own mass, its inertia unchanged",
+            short(rounded(-left, 9))
+        );
         let meant = "a load on the platform before that has at least this mass";
-        (left < -1e-9 * change.abs())
-            .then(|| Doubt::new(format!("event {}, payload", i + 1), format!("{change} kg"), why, meant))
+        (left < -1e-9 * change.abs()).then(|| {
+            Doubt::new(format!("event {}, payload", i + 1), format!("{} kg", short(change)), why, meant)
+        })
     });
     ask(late.into_iter().chain(too_much));
 }

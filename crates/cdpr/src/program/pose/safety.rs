@@ -208,12 +208,12 @@ impl Answer {
             format!("Tensions at rest reach {tension} N, in cable {cable} without {}.", case.name())
         });
         let swings = || self.broken.iter().filter_map(|case| Some((case.swinging()?, case)));
-        let differ = swings().map(|(swing, _)| swing.tension_difference).fold(0.0, f64::max);
-        let peaks = swings().map(|(swing, case)| (swing.greatest_tension, case.name()));
-        let peak = peaks.max_by(|a, b| a.0.tension.total_cmp(&b.0.tension)).map(|(peak, without)| {
+        let peaks = swings().map(|(swing, case)| (swing.greatest_tension, swing.tension_difference, case));
+        let peak = peaks.max_by(|a, b| a.0.tension.total_cmp(&b.0.tension)).map(|(peak, differ, case)| {
             let (tension, differ) = (significant(peak.tension, 4), significant(differ, 2));
-            let reached = format!("{tension} N, in cable {} without {without}", peak.cable);
-            format!("In the time followed they reach {reached}; two computations differ by up to {differ} N.")
+            let reached = format!("{tension} N, in cable {} without {}", peak.cable, case.name());
+            let differ = format!("two computations of it differ by up to {differ} N");
+            format!("In the time followed they reach {reached}; {differ}.")
         });
         [Some(first + &unknown), moved, tension, peak].into_iter().flatten().collect()
     }
@@ -278,8 +278,10 @@ impl Answer {
         }
         print_sentence(&self.strength());
         print_sentence(if followed {
-            "The winches stand still. Swings and peaks are those of the time followed, without damping; `>` marks \
-             a platform that still moved away at its end."
+            "The winches stand still. Swings and peaks are those of the time followed, without damping. `±` \
+             is how much two computations of the tensions differ, `~` marks a peak of which that is more \
+             than 10 %. `>` marks a platform that still moved away at the end, and a factor of which no more is \
+             known."
         } else {
             "These are rests while the winches stand still. On the way there the platform swings and tensions \
              are greater: --with swing=SECONDS follows it."

@@ -48,6 +48,45 @@ pub(super) struct Swinging {
     pub(super) below_ground: bool,
     /// Difference of two computations in the tensions [N].
     pub(super) tension_difference: f64,
+    /// The safety factor with tensions that are greater by it; `null` where a breaking force is not known.
+    pub(super) safety_factor_at_least: Option<f64>,
+    /// Whether such tensions are too great for a cable.
+    pub(super) may_be_overloaded: bool,
+}
+
+impl Swinging {
+    /// Difference of two computations over the greatest tension, above which that is marked.
+    const ROUGH: f64 = 0.1;
+    /// Error of a factor of which three digits are printed, relative to it, though the last one may differ.
+    const KNOWN: f64 = 2e-3;
+
+    /// Whether its tensions are hardly known.
+    pub(super) fn is_rough(&self) -> bool {
+        self.tension_difference > Self::ROUGH * self.greatest_tension.tension
+    }
+
+    /// The greatest tension as far as it is known, with the difference of two computations.
+    fn peak(&self) -> String {
+        let (peak, differ) = (self.greatest_tension.tension, self.tension_difference);
+        let mark = if self.is_rough() { "~ " } else { "" };
+        let digits = if differ > 0.01 * peak { 3 } else { 4 };
+        let differ = if differ < 1e-3 * peak { significant(differ, 1) } else { significant(differ, 2) };
+        format!("{mark}{} ±{differ}", fitting(peak, digits))
+    }
+
+    /// Its safety factor where three digits of it are known, or else what it is greater than; a cable that is
+    /// not the named one has its number.
+    fn factor(&self, named: usize) -> String {
+        let (Some(factor), Some(least)) = (self.factor.value, self.safety_factor_at_least) else {
+            return String::new();
+        };
+        if significant(factor, 3) == significant(least, 3) || least >= (1.0 - Self::KNOWN) * factor {
+            return self.factor.cell(named);
+        }
+        // Rounded down.
+        let step = 10.0_f64.powf(least.log10().floor() - 1.0);
+        format!("> {}", significant((least / step).floor() * step, 2))
+    }
 }
 
 /// Where the platform comes to rest.
@@ -138,6 +177,8 @@ impl From<Swing> for Swinging {
             factor: swing.safety_factor.into(),
             below_ground: swing.below_ground,
             tension_difference: swing.difference.tension,
+            safety_factor_at_least: swing.factor_at_least,
+            may_be_overloaded: swing.may_be_overloaded,
         }
     }
 }
@@ -176,6 +217,9 @@ impl Case {
             _ if self.rest.is_none() => Some("no rest was found".to_owned()),
             _ if self.turns_over() => Some("the platform turns over, perhaps into its cables".to_owned()),
             Some(Motion::Failed { .. }) => Some("its motion is not known".to_owned()),
+            Some(Motion::Followed(swing)) if swing.may_be_overloaded => {
+                Some("its peak is too uncertain".to_owned())
+            }
             _ => None,
         })
     }
@@ -264,11 +308,20 @@ impl Case {
     /// How far the platform moves, the greatest tension at rest; how far it swings, the greatest tension
     /// then, its cable, and the factor.
     pub(super) fn with_swing(&self) -> Vec<String> {
-        let rest = self.rest.as_ref().map(|rest| [short(rest.moved), short(rest.greatest_tension.tension)]);
+        let rest = self
+            .rest
+            .as_ref()
+            .map(|rest| [fitting(rest.moved, 4), fitting(rest.greatest_tension.tension, 4)]);
         let swing = self.swinging().map(|swing| {
-            let Greatest { cable, tension } = swing.greatest_tension;
-            let moved = format!("{}{}", if swing.moves_away { "> " } else { "" }, short(swing.moved));
-            [moved, short(tension), cable.to_string(), self.factor().cell(cable)]
+            let cable = swing.greatest_tension.cable;
+            let moved = format!("{}{}", if swing.moves_away { "> " } else { "" }, fitting(swing.moved, 4));
+            let at_rest = self.rest.as_ref().and_then(|rest| rest.factor.value);
+            // The rest decides where the motion has surely less.
+            let factor = match (at_rest, swing.safety_factor_at_least) {
+                (Some(at_rest), Some(least)) if at_rest < least => self.factor().cell(cable),
+                _ => swing.factor(cable),
+            };
+            [moved, swing.peak(), cable.to_string(), factor]
         });
         rest.unwrap_or_default().into_iter().chain(swing.unwrap_or_default()).collect()
     }
@@ -287,8 +340,8 @@ impl Case {
 
 /// A number of at most seven characters, where it is neither tiny nor huge, so that no line of a table ends
 /// within it.
-fn short(value: f64) -> String {
+fn fitting(value: f64, digits: usize) -> String {
     const MOST: usize = 7;
-    let text = significant(value, 4);
+    let text = significant(value, digits);
     if text.len() > MOST { format!("{value:.2e}") } else { text }
 }

@@ -11,7 +11,7 @@ use cdpr_assess::{CaseFactors, FactoredCase, Situation};
 use cdpr_robot::{Pose, Robot};
 
 /// Columns of a table with a row for each case.
-const CASES: [&str; 23] = [
+const CASES: [&str; 24] = [
     "case",
     "broken",
     "wind_towards_deg",
@@ -34,6 +34,7 @@ const CASES: [&str; 23] = [
     "swing_moved_m",
     "peak_tension_n",
     "peak_cable",
+    "peak_difference_n",
     "reason",
 ];
 
@@ -101,6 +102,7 @@ impl Answer {
             number(swing.map(|swing| swing.moved)),
             number(swing.map(|swing| swing.greatest_tension.tension)),
             swing.map_or_else(String::new, |swing| swing.greatest_tension.cable.to_string()),
+            number(swing.map(|swing| swing.tension_difference)),
             reasons.collect::<Vec<_>>().join("; "),
         ]
     }

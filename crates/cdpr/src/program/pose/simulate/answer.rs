@@ -4,7 +4,7 @@ use crate::program::answer::OutOfLimits;
 use crate::program::arguments::poses::pose_numbers;
 use crate::program::output::{Ending, print_sentence, table};
 use cdpr_assess::below_floor;
-use cdpr_dynamics::simulate::{Event, Excursion, Sample, Series};
+use cdpr_dynamics::simulate::{Change, Event, Excursion, Sample, Series};
 use cdpr_robot::{Pose, Robot, counted, rounded, significant};
 use serde::Serialize;
 
@@ -14,7 +14,7 @@ pub(super) struct Answer {
     /// Pose at rest, and unstrained lengths [m].
     start: [f64; 7],
     lengths: Vec<f64>,
-    /// Greatest distance of P from its rest [m], when [s], and the greatest rotation from the rest [rad].
+    /// Greatest distance of P from that pose [m], when [s], and the greatest rotation from it [rad].
     greatest_distance_m: f64,
     at_s: f64,
     greatest_rotation_rad: f64,
@@ -30,6 +30,9 @@ pub(super) struct Answer {
     elements: Vec<usize>,
     degree: Vec<usize>,
     steps: usize,
+    /// Whether the motion begins away from the rest.
+    #[serde(skip)]
+    displaced: bool,
     pub(super) columns: Vec<String>,
 }
 
@@ -134,6 +137,7 @@ impl Answer {
             elements: series.discretizations.iter().map(|of| of.elements).collect(),
             degree: series.discretizations.iter().map(|of| of.degree).collect(),
             steps: series.work.steps,
+            displaced: events.iter().any(|event| matches!(event.change, Change::Displace(_))),
             columns: pose
                 .into_iter()
                 .chain(tensions)
@@ -151,13 +155,15 @@ impl Answer {
         let mm = |metres: f64| significant(1e3 * metres, 3);
         let [x, y, z] = <[f64; 3]>::from(rest.position).map(|value| rounded(value, 4));
         let turned = significant(rest.rotation.angle().to_degrees(), 3);
+        // After a cut or a winch it rests elsewhere; a displaced platform does not start at its rest.
+        let from = if self.displaced { "rest" } else { "start" };
         print_sentence(&format!(
-            "{name} moves up to {} mm and {} deg from its rest, at {} s.",
+            "{name} moves up to {} mm and {} deg from its {from}, at {} s.",
             mm(self.greatest_distance_m),
             significant(self.greatest_rotation_rad.to_degrees(), 3),
             significant(self.at_s, 3)
         ));
-        print_sentence(&format!("Its rest is at ({x}, {y}, {z}) m, turned by {turned} deg."));
+        print_sentence(&format!("Its {from} is at ({x}, {y}, {z}) m, turned by {turned} deg."));
         println!(
             "In the last quarter of {until} s it swings by up to {} mm about its mean place.",
             mm(self.swing_m)
