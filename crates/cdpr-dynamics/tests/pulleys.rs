@@ -70,25 +70,19 @@ fn platforms_on_pulleys_put_where_they_rest_under_a_load_stay_there_with_it() {
     }
 }
 
+/// Of the robot whose cables stay taut without damping.
 #[test]
-fn without_damping_the_energy_of_robots_on_pulleys_stays() {
-    let displacements =
-        [Vector6::new(0.0, 0.0, -0.02, 0.0, 0.0, 0.0), Vector6::new(0.01, 0.01, -0.01, 0.01, 0.0, -0.01)];
-    for (robot, position, _) in on_pulleys() {
-        let (lengths, rest) = rest(&robot, position, "");
-        let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
-        let scale = if robot.name.starts_with("HRP") { 0.004 } else { 0.04 };
-        for motion in displacements {
-            let events = [at(0.0, Change::Displace(scale * motion))];
-            let discretization = Some(Discretization { elements: 4, degree: 5 });
-            let settings = Settings { tolerance: 1e-9, discretization, ..Settings::until(0.1) };
-            let series = simulate(&problem, &rest, &events, &settings).unwrap();
-            let (energy, way) = (series.energy, moved(&series, &rest.pose));
-            println!("{}: {:.1e} of {:.1e} J, {way:.1e} m", robot.name, energy.drift, energy.kinetic);
-            assert!(!series.slack.contains(&true), "{}", robot.name);
-            assert!(energy.drift.abs() < 1e-5 * energy.kinetic, "{}: {energy:?}", robot.name);
-        }
-    }
+fn without_damping_the_energy_of_a_robot_on_pulleys_stays() {
+    let [(robot, position, _), ..] = on_pulleys();
+    let (lengths, rest) = rest(&robot, position, "");
+    let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
+    let events = [at(0.0, Change::Displace(Vector6::new(0.0, 0.0, -8e-4, 0.0, 0.0, 0.0)))];
+    let discretization = Some(Discretization { elements: 4, degree: 5 });
+    let settings = Settings { tolerance: 1e-9, discretization, ..Settings::until(0.05) };
+    let series = simulate(&problem, &rest, &events, &settings).unwrap();
+    println!("{:.1e} of {:.1e} J", series.energy.drift, series.energy.kinetic);
+    assert!(!series.slack.contains(&true));
+    assert!(series.energy.drift.abs() < 1e-6 * series.energy.kinetic, "{:?}", series.energy);
 }
 
 /// Greatest distance from the sum over natural motions, and greatest motion [m, rad].
@@ -115,14 +109,14 @@ fn small_motions_on_pulleys_are_the_sum_of_natural_ones() {
         let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
         let modes = Modes::new(&problem, &rest, Wanted::Below(below)).unwrap().modes;
         let name = &robot.name;
-        let tolerance = if name.starts_with("HRP") { 1e-11 } else { 1e-12 };
+        let (tolerance, until) = if name.starts_with("HRP") { (1e-11, 0.3) } else { (1e-12, 0.1) };
         let bound = if name.contains("tilted") { 8e-3 } else { 1e-3 };
         let discretization = Some(Discretization { elements: 8, degree: 6 });
         for k in 0..3 {
             let mut force = Vector3::zeros();
             force[k] = 1e-4 * 9.81 * robot.platform.mass;
             let change = Change::Wrench { force, moment: Vector3::zeros() };
-            let settings = Settings { tolerance, discretization, ..Settings::until(0.3) };
+            let settings = Settings { tolerance, discretization, ..Settings::until(until) };
             let series = simulate(&problem, &rest, &[at(0.0, change)], &settings).unwrap();
             let [off, greatest] = off_from_sum(&series, &modes, &rest.pose, &force);
             println!("{name} {k}: {:.1e}, {off:.1e} of {greatest:.1e}, {}", off / greatest, modes.len());
@@ -168,7 +162,8 @@ fn cables_over_pulleys_part_and_go_slack_and_the_energy_is_known() {
             let name = &robot.name;
             println!("{name}: {cut:?}, slack {slack}, {energy:?}, {:?}", series.difference);
             assert!(moved(&series, &rest.pose) > 1e-5, "{name}");
-            assert!(energy.drift.abs() < 0.01 * energy.kinetic, "{name}: {cut:?}: {energy:?}");
+            let bound = if slack { 0.01 } else { 2e-5 };
+            assert!(energy.drift.abs() < bound * energy.kinetic, "{name}: {cut:?}: {energy:?}");
             let tensions = series.samples.iter().flat_map(|sample| sample.tensions.iter().flatten());
             assert!(tensions.clone().all(|tension| tension.is_finite()), "{name}");
         }
