@@ -78,7 +78,8 @@ pub enum StaticsError {
     /// Fewer cables than free motions: not all coordinates of a pose can be chosen.
     #[error(
         "{} for {} leave {} of the pose that cannot be chosen: \
-         expected as many names in `free` (of x, y, z, roll, pitch, yaw), not {named}; inverse, deflection, \
+         expected `--free` with as many names of x, y, z, roll, pitch, yaw, such as `--free roll,pitch`, or \
+         as many names in `free` of a file, not {named}; inverse, deflection, \
          stiffness, derivatives, modes, response, simulate, capacity, safety, hysteresis, workspaces, designs, \
          robustness, calibrations and studies take them",
         counted(*cables, "cable"), counted(*freedoms, "free motion"),

@@ -238,5 +238,5 @@ fn derivatives_of_a_robot_with_four_cables_need_and_take_free_coordinates() {
         assert_eq!(found["magnitude_mm"][j].as_f64(), Some(1e3 * magnitude));
     }
     let refused = unwrapped(cdpr(&arguments).stderr);
-    assert!(refused.contains("expected as many names in `free`"), "{refused}");
+    assert!(refused.contains("expected `--free` with as many names"), "{refused}");
 }

@@ -135,7 +135,7 @@ fn a_platform_on_four_cables_needs_its_free_coordinates() {
     let given = ["hysteresis", "four-cables", "--law", &law, "--pose", "0.5,0.3,2", "--payload", "5"];
     let output = cdpr(&given);
     assert_eq!(output.status.code(), Some(1));
-    assert!(unwrapped(output.stderr).contains("expected as many names in `free`"));
+    assert!(unwrapped(output.stderr).contains("expected `--free` with as many names"));
     let output = cdpr(&[&given[..], &["--free", "roll,pitch", "--format", "json"]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", unwrapped(output.stderr));
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -342,8 +342,9 @@ impl<'a> Point<'a> {
                 stationarity: self.optimum().stationarity,
             };
         }
-        let blocked = self.cables.iter().enumerate().filter_map(|(index, cable)| {
-            let bound = cable.at_limit()?;
+        let blocked = self.cables.iter().zip(&self.rows).enumerate().filter_map(|(index, (cable, row))| {
+            let limits = &problem.limits[index];
+            let bound = cable.at_limit().or_else(|| Blocked::near(row.tension, limits.min, limits.max))?;
             Some(Blocked { index, bound, tension: cable.limit(bound) })
         });
         // Of straight cables: those that sag have no slope along a residual that is the least one.
