@@ -269,6 +269,13 @@ fn events_that_are_not_possible_are_refused_with_their_place() {
         let error = solve(text).unwrap_err().to_string();
         assert!(error.starts_with(place), "{text}: {error}");
     }
+}
+
+#[test]
+fn settings_that_are_not_possible_are_refused() {
+    let robot = robot(ROBOTS[1].0);
+    let (lengths, rest) = rest(&robot, ROBOTS[1].1, "");
+    let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
     for settings in [
         Settings { rate: f64::NAN, ..Settings::until(1.0) },
         Settings { rate: 1e9, ..Settings::until(1.0) },

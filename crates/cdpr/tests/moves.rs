@@ -19,7 +19,7 @@ fn a_move_is_planned_for_a_controller_and_simulated_from_its_table() {
     let summary = text(printed.stdout);
     assert_eq!(printed.status.code(), Some(0), "{}", unwrapped(printed.stderr));
     assert!(
-        summary.contains("\nCoGiRo: 1.000 m in 1 s at up to 2.21 m/s, 101 set points\nShaper for "),
+        summary.contains("\nCoGiRo: 1.000 m in 1 s, at up to 2.21 m/s, 101 set points\nShaper for "),
         "{summary}"
     );
     assert!(summary.starts_with("CoGiRo: in 0.300 s after the move P swings by up to 0."), "{summary}");
@@ -67,7 +67,7 @@ fn the_length_of_a_move_is_that_of_the_curve_on_which_the_platform_moves() {
     let found = answer(&call)["way_m"].as_f64().unwrap();
     // The straight distances are 1.8 m together.
     assert!(found > 1.82 && (found / moved - 1.0).abs() < 1e-3, "{found} {moved}");
-    assert!(said.contains(&format!("Point mass: {found:.3} m in 4 s at up to ")), "{said}");
+    assert!(said.contains(&format!("Point mass: {found:.3} m in 4 s, at up to ")), "{said}");
 }
 
 #[test]

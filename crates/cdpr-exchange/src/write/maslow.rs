@@ -26,7 +26,9 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     let no_place = |field: &str, value: &str| {
         Err(ExchangeError::NoPlace { field: field.to_owned(), value: value.to_owned() })
     };
-    let Some(plane) = robot.plane else { return no_place("the robot", "not planar, without `plane`") };
+    let Some(plane) = robot.plane else {
+        return no_place("plane", "not given, so that the robot is not planar");
+    };
     if robot.cables.len() != NAMES.len() {
         return no_place("cables", &format!("a list of {}", robot.cables.len()));
     }

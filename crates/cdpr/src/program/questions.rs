@@ -4,7 +4,6 @@
 //! Robots and studies are opened here and nowhere else, so that no command forgets to ask.
 
 use crate::program::error::ProgramError;
-use crate::program::output::about;
 use crate::program::said;
 use cdpr_assess::{HELD, WorkspaceSummary, doubtful_rest};
 use cdpr_dynamics::moves::SetPoint;
@@ -77,7 +76,7 @@ pub(crate) fn added_to(object: String) -> serde_json::Result<String> {
 /// The robot of a file.
 pub(crate) fn open_robot(path: &Path) -> Result<Robot, ProgramError> {
     let robot = cdpr_study::open_robot(path)?;
-    about(&robot.name);
+    said::about(&robot.name);
     let cables = robot.cables.len();
     said::detail(format_args!("robot {}: {}, {cables} cables", path.display(), shown(&robot.name)));
     ask_in(path, plausible::robot(&robot));

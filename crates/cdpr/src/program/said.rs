@@ -1,8 +1,22 @@
 //! How much is said on the standard error: `--quiet` and `--verbose`.
 
-use cdpr_robot::Robot;
+use cdpr_robot::{Robot, shown};
 use std::fmt;
 use std::sync::OnceLock;
+
+/// The name of the robot that the answer is about.
+static ROBOT: OnceLock<String> = OnceLock::new();
+
+/// Remembers the name of the robot that the answer is about.
+pub(crate) fn about(name: &str) {
+    // A command is about one robot, the first one.
+    let _ = ROBOT.set(shown(name).into_owned());
+}
+
+/// The name of the robot that the answer is about, as it is shown; empty where there is no robot.
+pub(crate) fn robot() -> &'static str {
+    ROBOT.get().map_or("", String::as_str)
+}
 
 /// How much is said.
 static SAID: OnceLock<Said> = OnceLock::new();

@@ -2,8 +2,8 @@
 
 use crate::program::arguments::{components, mass};
 use crate::program::error::ProgramError;
-use crate::program::output::about;
 use crate::program::questions;
+use crate::program::said::about;
 use cdpr_robot::{Coordinate, Pose, Robot, TensionDistribution, TensionReference, Wrench, plausible};
 use cdpr_statics::Load;
 use cdpr_study::{Study, open_robot_in_any_unit};

@@ -257,8 +257,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     Ok(if summary.too_much > 0 || few.is_some() { Ending::SomethingWrong } else { Ending::Well })
 }
 
-/// The share of the positions that is held, and what ranges over them.
-/// Where no motion is the platform's own.
+/// At how many positions no motion is the platform's own.
 fn print_shared(summary: &WorkspaceSummary) {
     let shares = || summary.rows.iter().filter_map(|row| row.platform_share);
     let shared = shares().filter(|share| *share < OWN).count();
@@ -272,6 +271,7 @@ fn print_shared(summary: &WorkspaceSummary) {
     }
 }
 
+/// The share of the positions that is held, and what ranges over them.
 fn print(summary: &WorkspaceSummary) {
     let all = summary.rows.len();
     let held = summary.status.get(HELD).copied().unwrap_or(0);
@@ -337,6 +337,11 @@ fn print(summary: &WorkspaceSummary) {
             counted(exceeds, "position")
         ));
     }
+    print_region(summary);
+}
+
+/// How large the region held is.
+fn print_region(summary: &WorkspaceSummary) {
     if let Some(BoundarySummary { way, measure, error, doubtful, unit, .. }) = &summary.boundary {
         let with = match (summary.is_loaded(), *way) {
             (false, _) => "",

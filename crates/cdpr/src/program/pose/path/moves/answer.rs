@@ -289,7 +289,7 @@ impl Answer {
         let [way, speed] =
             [(self.way_m, 4), (self.speed_m_per_s, 3)].map(|(of, digits)| significant(of, digits));
         let (seconds, points) = (self.seconds, counted(set_points, "set point"));
-        print_sentence(&format!("{name}: {way} m in {seconds} s at up to {speed} m/s, {points}"));
+        print_sentence(&format!("{name}: {way} m in {seconds} s, at up to {speed} m/s, {points}"));
         if let ([.., [duration, _]], false) = (&self.impulses[..], self.shaped.is_empty()) {
             // A motion may have several, which makes the shaper less sensitive.
             let mut of: Vec<(String, usize)> = Vec::new();
