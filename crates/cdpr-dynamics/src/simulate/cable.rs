@@ -10,13 +10,13 @@ use super::winch::Reeling;
 use cdpr_robot::{Matrix3, Vector3};
 
 /// Where a cable begins.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum Start {
     /// At its exit point.
     Fixed(Vector3<f64>),
     /// Behind its lead and pulley: one unknown, by which they are longer than at rest, and one of a wheel that
     /// swivels by itself.
-    Led(Lead),
+    Led(Box<Lead>),
     /// Nowhere: it has parted at its exit.
     Loose,
 }

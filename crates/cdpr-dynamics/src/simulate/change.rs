@@ -57,15 +57,15 @@ impl System<'_> {
     /// the tension.
     pub(super) fn keep_leads(&mut self, rest: &Self, state: &mut [f64]) {
         for (cable, before) in self.cables.iter_mut().zip(&rest.cables) {
-            if let (Start::Led(lead), Start::Led(now)) = (before.start, cable.start) {
+            if let (Start::Led(lead), Start::Led(now)) = (before.start.clone(), cable.start.clone()) {
                 cable.length = before.length;
-                cable.start = Start::Led(lead);
                 if cable.mesh.is_some() {
                     state[cable.first] = lead.longer_for(&now);
                 }
                 if cable.of_start() > 1 {
                     state[cable.first + 1] = lead.swivelled_for(&now);
                 }
+                cable.start = Start::Led(lead);
             }
         }
     }
@@ -140,7 +140,7 @@ impl System<'_> {
                 cable.material.damping = cable.material.damping.max(least);
             }
             if let Start::Led(lead) = &mut cable.start {
-                *lead = lead.straight();
+                **lead = lead.straight();
             }
             cable.mesh = Some(chain.clone());
         }

@@ -167,7 +167,7 @@ impl Lead {
                     ..at
                 }
             }
-            (bend, _) => self.from_point(&(next - self.entry), bend),
+            (bend, _) => self.towards(&(next - self.entry), bend),
         }
     }
 
@@ -209,7 +209,7 @@ impl Lead {
     }
 
     /// The way from the entry, to a point from there.
-    fn from_point(&self, end: &Vector3<f64>, bend: Bend) -> Way {
+    fn towards(&self, end: &Vector3<f64>, bend: Bend) -> Way {
         let free = end.norm().max(f64::MIN_POSITIVE);
         let to_end = end / free;
         let leaning = to_end + if let Bend::Lean(lean) = bend { lean } else { Vector3::zeros() };

@@ -191,7 +191,7 @@ impl Settings {
             index,
             material,
             anchor: robot.cables[index].anchor_point,
-            start: lead.map_or(Start::Fixed(exit), Start::Led),
+            start: lead.map_or(Start::Fixed(exit), |lead| Start::Led(Box::new(lead))),
             length: if mesh.is_some() { free.unstrained_length } else { whole.unstrained_length },
             mesh,
             least_tension: tension_at(free.lowest_arc_length().0 / free.unstrained_length),
