@@ -74,7 +74,7 @@ impl Page {
         std::thread::spawn(move || lines.for_each(drop));
         let host = address.strip_prefix("ws://").unwrap().split('/').next().unwrap();
         let stream = TcpStream::connect(host).unwrap();
-        stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+        stream.set_read_timeout(Some(Duration::from_secs(600))).unwrap();
         let (socket, _) = tungstenite::client(address.as_str(), stream).unwrap();
         let mut page =
             Self { process, socket, session: None, calls: 0, events: Vec::new(), _profile: profile };
