@@ -3,29 +3,29 @@
 //! With its end moving by u, a cable vibrates as y(s) at the frequency ω. What it resists with is
 //!
 //! ```text
-//! Q = uᵀ K_dyn u = ∫ ( y'ᵀ A y' - ω² μ |y|² ) ds + (what moves where it begins)                    (N8)
+//! Q = uᵀ K_dyn u = ∫ ( y'ᵀ A y' - ω² μ |y|² ) ds + (what moves where it begins)               (N8)
 //! ```
 //!
-//! With damping ω² is the complex `σ = ω² - i ω c` here, and A has `i ω τ EA t tᵀ` more, (N13); Q has no
-//! conjugates. As y makes Q stationary, it may be held constant over `ξ = s/L` while the cable changes. The
-//! tension is `n = (1 - ξ) n_0 + ξ n_L`. With `q = A y'`, `N = |n|`, `φ = (1 + ε)/N`, `ψ = φ'/N` and the
-//! lengths of the law's pieces constant,
+//! With damping ω² is the complex `σ = ω² - i ω c` here, and A has `i ω τ EA t tᵀ` more, (N13); Q
+//! has no conjugates. As y makes Q stationary, it may be held constant over `ξ = s/L` while the cable
+//! changes. The tension is `n = (1 - ξ) n_0 + ξ n_L`. With `q = A y'`, `N = |n|`, `φ = (1 + ε)/N`,
+//! `ψ = φ'/N` and the lengths of the law's pieces constant,
 //!
 //! ```text
 //! y'ᵀ dA y' = -qᵀ dA⁻¹ q,      A⁻¹ = φ 1 + ψ n nᵀ
-//! ∂(qᵀ A⁻¹ q)/∂n = ψ ( |q|² - 3 (n·q)²/N² ) n + 2 ψ (n·q) q                                        (N9)
+//! ∂(qᵀ A⁻¹ q)/∂n = ψ ( |q|² - 3 (n·q)²/N² ) n + 2 ψ (n·q) q                             (N9)
 //! ∂(t·y')²/∂n = 2 (t·y') ( y' - t (t·y') )/N
 //! ```
 //!
-//! Where the cable begins on a pulley, its point gives way by the compliance `C = K3⁻¹ - ∫ A⁻¹ ds`: the
-//! difference of the static compliances of the whole cable and of its free part. With the force f there,
+//! Where the cable begins on a pulley, its point gives way by the compliance `C = K3⁻¹ - ∫ A⁻¹ ds`:
+//! the difference of the static compliances of the whole cable and of its free part. With the force f there,
 //!
 //! ```text
-//! dQ = -fᵀ dC f = zᵀ dK3 z + fᵀ d(∫ A⁻¹ ds) f,      z = K3⁻¹ f                                     (N10)
+//! dQ = -fᵀ dC f = zᵀ dK3 z + fᵀ d(∫ A⁻¹ ds) f,      z = K3⁻¹ f                           (N10)
 //! ```
 //!
-//! A lead moves it by η along the cable, `y(0) = η t`: then Q changes by `2 η r·dt` with the force r on the
-//! beginning, and by what the bar of (N7) does.
+//! A lead moves it by η along the cable, `y(0) = η t`: then Q changes by `2 η r·dt` with the force r on
+//! the beginning, and by what the bar of (N7) does.
 
 use crate::element::{Beginning, Element, layout};
 use crate::free::Free;

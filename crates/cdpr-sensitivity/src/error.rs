@@ -68,7 +68,8 @@ pub enum SensitivityError {
     },
     /// The squares of such values overflow, or vanish.
     #[error(
-        "{field}[{index}] = {value:e} is the largest: expected values from 1e-150 to 1e150 in size; choose another unit"
+        "{field}[{index}] = {value:e} is the largest: expected values from 1e-150 to 1e150 in size; \
+         choose another unit"
     )]
     Scale {
         /// Name of the array.
@@ -83,8 +84,8 @@ pub enum SensitivityError {
     EqualMassNeedsUniform,
     /// The first point of the unscrambled sequence is all zeros, where the law of this input is infinite.
     #[error(
-        "input `{name}` is unbounded below, which point 0 of a sequence, all zeros, cannot draw: start at index \
-         1 or scramble"
+        "input `{name}` is unbounded below, which point 0 of a sequence, all zeros, cannot draw: start at \
+         index 1 or scramble"
     )]
     UnboundedAtZero {
         /// Name of the input.
@@ -162,8 +163,8 @@ pub enum SensitivityError {
     },
     /// Upper bounds of total shares that cannot be true.
     #[error(
-        "the upper bounds of all total shares add up to {sum:.3e}, less than 1: the output jumps, or its changes \
-         are rounding"
+        "the upper bounds of all total shares add up to {sum:.3e}, less than 1: the output jumps, or its \
+         changes are rounding"
     )]
     Jumps {
         /// Their sum.

@@ -114,7 +114,7 @@ impl Share {
     }
 }
 
-/// Where the shares are from, or why there are none.
+/// Where the shares are from, or why no input has one.
 fn shares_caption(analysis: &Analysis) -> Option<String> {
     let shares = || analysis.inputs.iter().filter_map(|input| Share::of(analysis, input));
     let unexplained = shares().find_map(|share| match share {

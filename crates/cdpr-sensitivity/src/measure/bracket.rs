@@ -4,11 +4,11 @@
 //! and ψ the orthonormal polynomials of an input whose eigenfunctions have no closed form,
 //!
 //! ```text
-//! uniform:  e_n = √2 cos(n π u),   λ_n = (n π / (max - min))²,   u = (x - min) / (max - min)        (Br1)
+//! uniform:  e_n = √2 cos(n π u),   λ_n = (n π / (max - min))²,   u = (x - min) / (max - min)     (Br1)
 //! normal:   e_n = He_n(ξ) / √n!,   λ_n = n / std²,   ξ = (x - mean) / std
-//! c_n = E f e_n = E (∂f/∂x_i e_n') / λ_n,   c_ij = E f e_1(x_i) e_1(x_j)                            (Br2)
-//! Σ_n c_n² <= S_i V,   Σ_n c_n² + Σ_j c_ij² <= T_i V                                                (Br3)
-//! T_i V <= ν_i / λ_1 - Σ_n c_n² (λ_n / λ_1 - 1),   ν_i = E (∂f/∂x_i)²                               (Br4)
+//! c_n = E f e_n = E (∂f/∂x_i e_n') / λ_n,   c_ij = E f e_1(x_i) e_1(x_j)                          (Br2)
+//! Σ_n c_n² <= S_i V,   Σ_n c_n² + Σ_j c_ij² <= T_i V                                             (Br3)
+//! T_i V <= ν_i / λ_1 - Σ_n c_n² (λ_n / λ_1 - 1),   ν_i = E (∂f/∂x_i)²                      (Br4)
 //! T_i <= 1 - Σ_(j ≠ i) S_j                                                                          (Br5)
 //! others:   c_n = E f ψ_n,   T_i V <= C_i ν_i (see `dgsm`)
 //! ```
@@ -17,9 +17,9 @@
 //!   variance-based sensitivity indices*, Electron. J. Stat. 14 (2020). Each c² is a share of the variance
 //!   that input i causes, and different ones do not overlap.
 //! - (Br4): the part of f that depends on `x_i` is a sum over the `e_n`, the derivative has the same sum with
-//!   weights `λ_n`. What (Br3) knows to be at n > 1 has used more of ν than its share. For one input without
-//!   any known part this is the bound of `dgsm`. (Br5): the closed index of all other inputs is at least the
-//!   sum of their first-order indices.
+//!   weights `λ_n`. What (Br3) knows to be at n > 1 has used more of ν than its share. For one input
+//!   without any known part this is the bound of `dgsm`. (Br5): the closed index of all other inputs is at
+//!   least the sum of their first-order indices.
 //! - Derivatives of models that are nearly linear vary little. Their mean is therefore separated, E (b e_n')
 //!   = b E e_n' being known, and in the variance likewise the square of the linear part.
 //! - A square of an estimate is too large by its variance, which is subtracted. Intervals are those of a

@@ -212,7 +212,7 @@ pub(crate) fn brief<'a>(sentence: &'a str, name: &str) -> Cow<'a, str> {
     Cow::Owned(format!("{before}{}{after}", cut(name, kept)))
 }
 
-/// A name of at most so many columns, with `...` for what is left out.
+/// A name of at most this number of columns, with `...` for what is left out.
 pub(crate) fn cut(name: &str, columns: usize) -> String {
     if name.chars().count() <= columns {
         return name.to_owned();

@@ -122,7 +122,7 @@ impl Candidate {
         Some(format!("{first} {}", by_blocks(&all(&others.names))?))
     }
 
-    /// What settles some of so many inputs, of which the sentence speaks as `subject`.
+    /// What settles some inputs of all, of which the sentence speaks as `subject`.
     fn remedy_of(&self, subject: &str, open: &Open, inputs: usize) -> Option<String> {
         open.names.first()?;
         let more = |count: usize| count.saturating_sub(self.count) * self.observations;

@@ -70,8 +70,8 @@ pub(super) fn optimum(output: Goal, best: &BestDesign) -> Option<String> {
     };
     Some(match (best.optimal, best.gradient_error) {
         _ if !residual.is_finite() => {
-            "It is where a start lies, and no optimum: no search leads on from there, because derivatives are not \
-             known at all poses. `choices` instead of `bounds` need none."
+            "It is where a start lies, and no optimum: no search leads on from there, because derivatives are \
+             not known at all poses. `choices` instead of `bounds` need none."
                 .to_owned()
         }
         (true, None) => "It is a local optimum: the KKT residual is below 1e-8.".to_owned(),
@@ -80,8 +80,8 @@ pub(super) fn optimum(output: Goal, best: &BestDesign) -> Option<String> {
             format!("It is a local optimum: {precision}.")
         }
         (false, _) => format!(
-            "The search ended before an optimum (KKT residual {}{by_differences}): derivatives jump there, where \
-             a tension meets a limit{kinks}, or no step keeps all poses.",
+            "The search ended before an optimum (KKT residual {}{by_differences}): derivatives jump there, \
+             where a tension meets a limit{kinks}, or no step keeps all poses.",
             significant(residual, 1)
         ),
     })
