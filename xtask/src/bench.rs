@@ -47,12 +47,24 @@ struct Benchmark {
 /// Runs the benchmarks, with arguments of criterion, and compares them, or saves them.
 pub(crate) fn run(save: bool, arguments: &[String]) -> Outcome {
     let run = measure(arguments)?;
-    let worse = compare(&run, &serde_json::from_str(&read(&root().join(BASELINE))?)?);
+    let baseline: Vec<Run> = serde_json::from_str(&read(&root().join(BASELINE))?)?;
+    let worse = compare(&run, &baseline);
     if save {
-        write(&root().join(BASELINE), &(serde_json::to_string_pretty(&run)? + "\n"))?;
-        return write(&root().join(BOOK), &table(&run));
+        let runs = if arguments.is_empty() { vec![run] } else { merged(baseline, run) };
+        write(&root().join(BASELINE), &(serde_json::to_string_pretty(&runs)? + "\n"))?;
+        return write(&root().join(BOOK), &runs.iter().map(table).collect::<Vec<_>>().join("\n"));
     }
     if worse.is_empty() { Ok(()) } else { Err(format!("more instructions: {}", worse.join(", ")).into()) }
+}
+
+/// The runs of the baseline, without the benchmarks of `run`, and `run`.
+fn merged(mut baseline: Vec<Run>, run: Run) -> Vec<Run> {
+    for old in &mut baseline {
+        old.benchmarks.retain(|old| run.benchmarks.iter().all(|new| new.name != old.name));
+    }
+    baseline.retain(|old| !old.benchmarks.is_empty());
+    baseline.push(run);
+    baseline
 }
 
 fn measure(arguments: &[String]) -> Outcome<Run> {
@@ -150,11 +162,11 @@ pub(crate) fn total(file: &str) -> Option<u64> {
 }
 
 /// Prints both runs, and returns the benchmarks whose counts have grown.
-fn compare(now: &Run, baseline: &Run) -> Vec<String> {
+fn compare(now: &Run, baseline: &[Run]) -> Vec<String> {
     println!("{:<44}{:>11}{:>11}{:>14}{:>14}", "benchmark", "median", "baseline", "instructions", "baseline");
     let mut worse = Vec::new();
     for Benchmark { name, median_ns, instructions, .. } in &now.benchmarks {
-        let then = baseline.benchmarks.iter().find(|then| then.name == *name);
+        let then = baseline.iter().flat_map(|run| &run.benchmarks).find(|then| then.name == *name);
         let (count, before) = (*instructions, then.and_then(|then| then.instructions));
         let shown = |count: Option<u64>| count.map_or_else(|| "-".to_owned(), |count| count.to_string());
         let baseline = then.map_or_else(|| "-".to_owned(), |then| duration(then.median_ns));
@@ -164,7 +176,10 @@ fn compare(now: &Run, baseline: &Run) -> Vec<String> {
             worse.push(name.clone());
         }
     }
-    println!("\n{}\nbaseline: {}", now.machine, baseline.machine);
+    println!("\n{}", now.machine);
+    for run in baseline {
+        println!("baseline: {}", run.machine);
+    }
     worse
 }
 
@@ -203,6 +218,23 @@ mod tests {
         assert!(is_worse(10_150, 10_000));
         assert!(!is_worse(10_050, 10_000) && !is_worse(9_000, 10_000));
         assert_eq!(total("events: Ir\nsummary: 12\n\ntotals: 4321\n"), Some(4321));
+    }
+
+    #[test]
+    fn a_part_of_the_benchmarks_replaces_its_own_rows() {
+        let run = |machine: &str, names: &[&str]| Run {
+            machine: machine.to_owned(),
+            benchmarks: Vec::from_iter(names.iter().map(|name| Benchmark {
+                name: (*name).to_owned(),
+                elements: 1,
+                median_ns: 1.0,
+                instructions: None,
+            })),
+        };
+        let runs = merged(vec![run("first", &["a", "b"]), run("second", &["c"])], run("third", &["b", "c", "d"]));
+        let names = |run: &Run| Vec::from_iter(run.benchmarks.iter().map(|row| row.name.clone())).join(" ");
+        let rows = Vec::from_iter(runs.iter().map(|run| format!("{}: {}", run.machine, names(run))));
+        assert_eq!(rows, ["first: a", "third: b c d"]);
     }
 
     #[test]
