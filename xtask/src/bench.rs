@@ -231,7 +231,8 @@ mod tests {
                 instructions: None,
             })),
         };
-        let runs = merged(vec![run("first", &["a", "b"]), run("second", &["c"])], run("third", &["b", "c", "d"]));
+        let runs =
+            merged(vec![run("first", &["a", "b"]), run("second", &["c"])], run("third", &["b", "c", "d"]));
         let names = |run: &Run| Vec::from_iter(run.benchmarks.iter().map(|row| row.name.clone())).join(" ");
         let rows = Vec::from_iter(runs.iter().map(|run| format!("{}: {}", run.machine, names(run))));
         assert_eq!(rows, ["first: a", "third: b c d"]);

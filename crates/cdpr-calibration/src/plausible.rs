@@ -82,6 +82,13 @@ impl<'a> Placed<'a> {
     }
 }
 
+/// Length of a straight cable at a pose, with its lead and arc [m].
+pub(crate) fn straight_length(robot: &Robot, pose: &Pose, cable: usize) -> f64 {
+    let span = robot.span(pose, cable);
+    let span = robot.gravity.level().map_or(span, |level| level * span);
+    robot.cable(cable).straight_length_in_space(span)
+}
+
 /// All of these of a robot, one at least.
 struct PlacedRows<'a> {
     robot: &'a Robot,
@@ -93,9 +100,7 @@ struct PlacedRows<'a> {
 impl PlacedRows<'_> {
     /// Length of a straight cable with its lead and arc [m], with the platform of a row at a position.
     fn straight(&self, of: &Placed, position: Vector3<f64>, cable: usize) -> f64 {
-        let span = self.robot.span(&Pose { position, rotation: of.rotation }, cable);
-        let span = self.robot.gravity.level().map_or(span, |level| level * span);
-        self.robot.cable(cable).straight_length_in_space(span)
+        straight_length(self.robot, &Pose { position, rotation: of.rotation }, cable)
     }
 
     /// Misfit of column i with cable j [m], with the coordinates of the position in this order and with these

@@ -5,8 +5,8 @@ use cdpr_calibration::{
     Estimate, Fit, FitSettings, Noise, Quantity, Reading, Row, SensorError, Simulated, Unknowns, drawn,
     drawn_errors, fit, simulate,
 };
-use cdpr_robot::{CableEnd, Parameter, Vector3};
-use cdpr_statics::Load;
+use cdpr_robot::{CableEnd, Parameter, Pose, Robot, Vector3};
+use cdpr_statics::{Load, inverse};
 
 /// A campaign with errors of the sensors.
 struct Campaign<'a> {
@@ -196,4 +196,26 @@ fn lengths_and_tensions_alone_tell_the_robot_and_their_errors() {
     check("self-calibration", &["CAROCA", "CoGiRo", "IPAnema", "FAST"], |case, seed| {
         Campaign { errors: &errors, poses: 60, ..Campaign::of(case, noise) }.run(seed, |_| {})
     });
+}
+
+/// Where the limits of tensions do not allow a pose, the search for the winches begins with straight lengths.
+#[test]
+fn winches_are_found_where_poses_lie_beyond_the_limits_of_tensions() {
+    let [mut case, ..] = cases();
+    case.robot.cables.iter_mut().for_each(|cable| cable.lead = 4.0);
+    let errors = [(SensorError::LengthOffset, 0.01), (SensorError::DrumScale, 0.01)];
+    let errors = drawn_errors(&case.robot, &errors, 0, 1);
+    let poses = case.poses(30);
+    let truth = drawn(&case.model(), 1);
+    let rows = simulate(&Simulated { errors: &errors, ..case.simulated(&truth, &poses, EXTERNAL, 1) });
+    let held = |robot: &Robot, pose: &Pose| inverse(robot, pose, &Load::none());
+    let greatest = |pose: &Pose| held(&case.robot, pose).unwrap().tensions.into_iter().fold(0.0, f64::max);
+    let mut limited = case.robot.clone();
+    limited.tension_limits.max = 1.1 * poses.iter().map(greatest).fold(f64::INFINITY, f64::min);
+    let beyond = poses.iter().filter(|pose| held(&limited, pose).is_err()).count();
+    assert!((3..=27).contains(&beyond), "{beyond} of 30");
+    let mut unknowns = Unknowns::of_model(&case.model());
+    errors.iter().for_each(|(error, _)| unknowns.add(&limited, *error, None, 0));
+    let found = fit(&limited, &rows.unwrap(), &unknowns, &FitSettings::default()).unwrap();
+    assert!(found.converged() && found.p_value().unwrap() > 1e-3, "{:?}", found.p_value());
 }

@@ -7,6 +7,7 @@ use crate::fit::problem::{Problem, Seen};
 use crate::fit::search::SEEN;
 use crate::model::row::held_lengths;
 use crate::model::{RowState, Shared, State};
+use crate::plausible::straight_length;
 use crate::sensor_error::{SensorError, size};
 use crate::solve::Decomposed;
 use crate::unknowns::Unknown;
@@ -20,9 +21,14 @@ use rayon::prelude::*;
 impl Problem<'_> {
     /// The state of the nominal robot, with its residuals.
     pub(super) fn begin(&self) -> Result<(State, Seen), CalibrationError> {
-        let x = self.model.unknowns.within(self.winches());
-        let rows: Vec<RowState> =
-            self.rows.par_iter().map(|row| self.model.begin(row, &x)).collect::<Result<_, _>>()?;
+        let begun = |x: Vec<f64>| -> Result<_, CalibrationError> {
+            let x = self.model.unknowns.within(x);
+            let rows = self.rows.par_iter().map(|row| self.model.begin(row, &x));
+            Ok((rows.collect::<Result<Vec<RowState>, _>>()?, x))
+        };
+        // Errors of winches that no row bears are worse than none.
+        let zero = vec![0.0; self.model.unknowns.all.len()];
+        let (rows, x) = begun(self.winches()).or_else(|error| begun(zero).map_err(|_| error))?;
         let shared = Shared { x, frame: Rotation3::identity(), origin: Vector3::zeros() };
         let mut state = State { shared, rows };
         self.align(&mut state);
@@ -48,8 +54,8 @@ impl Problem<'_> {
             .par_iter()
             .filter_map(|row| {
                 let pose = self.model.measured_pose(row)?;
-                let spans = || (0..robot.cables.len()).map(|i| robot.span(&pose, i).norm()).collect();
-                let held = held_lengths(robot, &pose).unwrap_or_else(|_| spans());
+                let straight = || (0..robot.cables.len()).map(|i| straight_length(robot, &pose, i)).collect();
+                let held = held_lengths(robot, &pose).unwrap_or_else(|_| straight());
                 Some((held, row.lengths.as_ref()?))
             })
             .collect();
