@@ -274,6 +274,12 @@ pub struct Fit {
     pub(crate) length_offsets: Option<LengthOffsets>,
 }
 
+/// Probability of a chi-square as great as this or greater with these degrees of freedom; 1 with none.
+pub(crate) fn chance(chi_square: f64, degrees: usize) -> f64 {
+    let half = 0.5 * chi_square.max(f64::MIN_POSITIVE);
+    if degrees == 0 { 1.0 } else { statrs::function::gamma::gamma_ur(0.5 * degrees as f64, half) }
+}
+
 impl Fit {
     /// Standard deviations of a sum of unknowns with these weights: of the posterior, and by the data alone.
     pub(crate) fn stds(&self, weights: &[(usize, f64)]) -> [Option<f64>; 2] {
@@ -290,12 +296,7 @@ impl Fit {
     /// Probability of a chi-square as great as this or greater, if the model is right and the noise as
     /// stated.
     pub fn p_value(&self) -> Option<f64> {
-        (self.degrees_of_freedom > 0).then(|| {
-            statrs::function::gamma::gamma_ur(
-                0.5 * self.degrees_of_freedom as f64,
-                0.5 * self.chi_square.max(f64::MIN_POSITIVE),
-            )
-        })
+        (self.degrees_of_freedom > 0).then(|| chance(self.chi_square, self.degrees_of_freedom))
     }
 
     /// Probability of residuals of the measurements as small as these or smaller, if the noise is as stated.

@@ -42,7 +42,9 @@ pub use results::arrows;
 pub use results::folder::{CALIBRATED_NAME, Calibrated, POSTERIOR_NAME};
 pub use results::patterns::{Split, Trend};
 pub use results::predicted::UncertaintyMap;
-pub use results::summary::{CalibrationSummary, Campaign, OutlierSummary, ParameterSummary, SensorSummary};
+pub use results::summary::{
+    CalibrationSummary, Campaign, OutlierSummary, ParameterSummary, RowApart, SensorSummary,
+};
 pub use sensor_error::SensorError;
 pub use simulate::{Simulated, drawn, drawn_errors, simulate};
 pub use table::{MEASUREMENTS_FORMAT, Measurements, read_measurements, write_measurements};

@@ -130,6 +130,7 @@ impl Fit {
             not_identifiable: self.unidentifiable.iter().map(|of| of.weights.clone()).collect(),
             residuals: self.by_sensor(predicted),
             outliers: if *noise_is_stated { self.outlier_summaries() } else { Vec::new() },
+            row_apart: self.row_apart(),
             trends: if *noise_is_stated { self.trends() } else { Vec::new() },
             splits: self.splits(),
             workspace: if relative || is_open { None } else { map() },

@@ -255,6 +255,7 @@ fn swapped_columns_and_rows_of_other_poses_are_warned_of() {
     let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
     let warnings = summary["warnings"].to_string();
     assert!(warnings.contains("line 8 alone makes"), "{warnings}");
+    assert_eq!(summary["row_apart"]["others_fit"], false);
     assert_eq!(summary["outliers"][0]["line"], 8);
     for (columns, words) in [
         ((9, 10), "column y_m and z_m: expected them the other way round"),

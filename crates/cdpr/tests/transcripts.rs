@@ -211,7 +211,7 @@ fn a_student_comes_from_a_drawing_to_a_study() {
 #[test]
 fn a_student_calibrates_the_robot_from_a_table() {
     let page = checked("tutorials/calibration", |_| {});
-    assert!(page.contains("Lab robot: the position is known to 0.1"));
+    assert!(page.contains("Lab robot: at these poses a coordinate is known to 0.1"));
 }
 
 #[test]

@@ -85,6 +85,17 @@ pub struct OutlierSummary {
     pub standard_deviations: f64,
 }
 
+/// The one row that is far from the model, where that makes most of the misfit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct RowApart {
+    /// Line in the file of measurements.
+    pub line: usize,
+    /// Its share of the sum of squares.
+    pub share: f64,
+    /// Whether the other rows fit within their noise.
+    pub others_fit: bool,
+}
+
 /// A summary of a calibration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CalibrationSummary {
@@ -116,6 +127,9 @@ pub struct CalibrationSummary {
     pub residuals: BTreeMap<&'static str, SensorSummary>,
     /// Measured numbers that are far from the model.
     pub outliers: Vec<OutlierSummary>,
+    /// The row that is far from all others, where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub row_apart: Option<RowApart>,
     /// Clear trends of residuals against place and load.
     pub trends: Vec<Trend>,
     /// Variances of means over consecutive rows.

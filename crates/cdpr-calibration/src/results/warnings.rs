@@ -1,9 +1,9 @@
 //! What is odd about a calibration.
 
-use crate::fitted::{Fit, FitStatus, UNLIKELY};
+use crate::fitted::{Fit, FitStatus, UNLIKELY, chance};
 use crate::model::held::{HeldReading, farthest_held};
 use crate::results::patterns::Trend;
-use crate::results::summary::{CalibrationSummary, Campaign};
+use crate::results::summary::{CalibrationSummary, Campaign, RowApart};
 use crate::sensor_error::SensorError;
 use cdpr_robot::{counted, significant};
 use std::collections::BTreeMap;
@@ -65,13 +65,12 @@ impl Fit {
             ));
         }
         warnings.extend(self.held_coordinates(campaign));
-        if let Some((line, share)) = self.worst_row() {
+        if let Some(RowApart { line, share, .. }) = summary.row_apart {
             warnings.push(format!(
                 "line {line} alone makes {:.0} % of the sum of squares: it may be of another robot or pose",
                 100.0 * share
             ));
-        }
-        if let Some((column, rms)) = self.worst_column() {
+        } else if let Some((column, rms)) = self.worst_column() {
             warnings.push(format!(
                 "column {column} is off by {rms:.1} standard deviations, many times more than the others \
                  of its kind: columns may be swapped, its unit or sign may be wrong"
@@ -128,17 +127,21 @@ impl Fit {
         ))
     }
 
-    /// The line with most of the sum of squares, if that is far more than its share.
-    fn worst_row(&self) -> Option<(usize, f64)> {
-        let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
+    /// The row with most of the sum of squares, if that is far more than its share.
+    pub(super) fn row_apart(&self) -> Option<RowApart> {
+        let mut sums: BTreeMap<usize, (f64, usize)> = BTreeMap::new();
         for of in &self.after {
-            *sums.entry(of.line).or_insert(0.0) += of.standardized().powi(2);
+            let (sum, count) = sums.entry(of.line).or_default();
+            *sum += of.standardized().powi(2);
+            *count += 1;
         }
-        let total: f64 = sums.values().sum();
-        let (line, sum) = sums.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let total: f64 = sums.values().map(|(sum, _)| sum).sum();
+        let (line, (sum, count)) = sums.into_iter().max_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
         let rows = self.poses.len() as f64;
         let numbers = self.after.len() as f64 / rows;
-        (rows > 2.0 && sum > 0.5 * total && sum > 10.0 * numbers).then_some((line, sum / total))
+        let others_fit = chance(total - sum, self.of_data.1.saturating_sub(count)) >= UNLIKELY;
+        let is_apart = rows > 2.0 && sum > 0.5 * total && sum > 10.0 * numbers;
+        is_apart.then_some(RowApart { line, share: sum / total, others_fit })
     }
 
     /// The column that fits by far worst among the same sensors, before the fit spreads its error.

@@ -3,10 +3,10 @@
 use crate::program::arguments::{components, mass};
 use crate::program::error::ProgramError;
 use crate::program::questions;
-use crate::program::said::about;
+use crate::program::said::{self, about};
 use cdpr_robot::{Coordinate, Pose, Robot, TensionDistribution, TensionReference, Wrench, plausible};
 use cdpr_statics::Load;
-use cdpr_study::{Study, open_robot_in_any_unit};
+use cdpr_study::{Output, Study, open_robot_in_any_unit};
 use std::path::{Path, PathBuf};
 
 /// The robot, always the first argument.
@@ -124,6 +124,11 @@ impl Preference {
         if self.distribution.is_some() || self.tension_reference.is_some() {
             self.given_to(study.robot.clone())?;
             study.choose_tensions(self.distribution, self.tension_reference.clone())?;
+        }
+        if study.file.output == Output::Position && study.file.load() != Load::none() {
+            said::note(format_args!(
+                "a position is that without load: the load of the study has no effect on it"
+            ));
         }
         Ok(study)
     }

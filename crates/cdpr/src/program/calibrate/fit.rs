@@ -9,7 +9,7 @@ use crate::program::output::{Details, Ending, patiently, print_sentence, table, 
 use crate::program::said;
 use cdpr_calibration::{
     Calibrated, CalibrationError, CalibrationSummary, Campaign, Fit, FitSettings, Measurements,
-    ParameterSummary, Quantity, RobustLoss, Unknowns, carry_out, read_measurements,
+    OutlierSummary, ParameterSummary, Quantity, RobustLoss, RowApart, Unknowns, carry_out, read_measurements,
 };
 use cdpr_report::calibration_report;
 use cdpr_robot::{Robot, counted, listing, rounded, shown, significant};
@@ -179,8 +179,12 @@ fn print(summary: &CalibrationSummary) {
     let (unknowns, identifiable) = (all().count(), all().filter(|(_, of)| of.identifiable).count());
     let (robot, rows) = (shown(&summary.robot), counted(summary.rows, "row"));
     let have = if summary.rows == 1 { "has" } else { "have" };
-    let (known, condition) =
-        if summary.is_unlikely() { ("would be known", ", if they did fit") } else { ("is known", "") };
+    let apart = summary.row_apart.filter(|_| summary.is_unlikely());
+    let (known, condition) = if summary.is_unlikely() && !apart.is_some_and(|row| row.others_fit) {
+        ("would be known", ", if they did fit")
+    } else {
+        ("is known", "")
+    };
     let mut sentences: Vec<String> = summary
         .position_std_after
         .iter()
@@ -188,7 +192,7 @@ fn print(summary: &CalibrationSummary) {
             let before = summary.position_std_before;
             let before = before.map_or_else(String::new, |std| format!(" (before {} mm)", digits(1e3 * std)));
             let after = digits(1e3 * after);
-            format!("{robot}: the position {known} to {after} mm a coordinate{before}{condition}.")
+            format!("{robot}: at these poses a coordinate {known} to {after} mm{before}{condition}.")
         })
         .collect();
     if let [first, others @ ..] = &summary.position_depends_on[..] {
@@ -199,7 +203,9 @@ fn print(summary: &CalibrationSummary) {
         ));
     }
     let misfit = summary.chi_square / summary.degrees_of_freedom.max(1) as f64;
-    if misfit > MISFIT {
+    if let Some(row) = apart {
+        sentences.insert(0, about_apart(summary, row));
+    } else if misfit > MISFIT {
         sentences.insert(
             0,
             format!(
@@ -241,6 +247,22 @@ fn print(summary: &CalibrationSummary) {
         ]);
     }
     println!("{rows}");
+}
+
+/// Which row does not fit, where it is one.
+fn about_apart(summary: &CalibrationSummary, RowApart { line, share, others_fit }: RowApart) -> String {
+    let robot = shown(&summary.robot);
+    let of_line = |of: &&OutlierSummary| of.line == line;
+    let column =
+        summary.outliers.iter().find(of_line).map_or(String::new(), |of| format!(" ({})", of.column));
+    if others_fit {
+        return format!("Line {line}{column} does not fit {robot}, all other rows do.");
+    }
+    format!(
+        "The measurements do not fit {robot}: line {line}{column} makes {:.0} % of the misfit. Is it of another \
+         pose, or mistyped? Leave it out, or let it count less: --with loss=huber.",
+        100.0 * share
+    )
 }
 
 /// Three digits of a length.

@@ -79,7 +79,7 @@ pub(super) fn whole(
     if common.format == Format::Text {
         println!("\nresults in {}\nreport in {}", out.display(), path.display());
         if !common.details.details {
-            println!("all measures: in the report, or with --resume --details");
+            println!("all measures: in the report, or with\n  {} --details", resumed(out, common));
         }
     }
     Ok(ending(&results.summary))
