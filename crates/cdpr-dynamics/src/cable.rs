@@ -42,27 +42,69 @@ impl HeldMode {
         Self { square, coupling: Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z) }
     }
 
-    fn in_plane(cable: &CableAtRest, Clamped { square, coupling: [x, z] }: &Clamped<2>) -> Self {
-        Self::new(cable, *square, Vector3::new(*x, 0.0, *z))
-    }
-
-    fn across(cable: &CableAtRest, Clamped { square, coupling: [y] }: &Clamped<1>) -> Self {
-        Self::new(cable, *square, Vector3::new(0.0, *y, 0.0))
+    fn all<const D: usize>(cable: &CableAtRest, modes: &[Clamped<D>]) -> Vec<Self> {
+        modes.iter().map(|mode| Self::new(cable, mode.square, in_space(mode.coupling))).collect()
     }
 }
 
-/// The motions of a cable in its plane, or across it, as polynomials.
+/// The axes of a cable along its plane and upwards (2), across its plane (1), or both (3).
+fn axes<const D: usize>() -> &'static [usize] {
+    match D {
+        1 => &[1],
+        2 => &[0, 2],
+        _ => &[0, 1, 2],
+    }
+}
+
+/// A vector along the axes of the cable.
+fn in_space<const D: usize>(parts: [f64; D]) -> Vector3<f64> {
+    let mut found = Vector3::zeros();
+    axes::<D>().iter().zip(parts).for_each(|(axis, part)| found[*axis] = part);
+    found
+}
+
+/// The motions of a cable in its plane, across it, or in both, as polynomials.
 pub(crate) struct Part<const D: usize> {
     pub(crate) beginning: Beginning<D>,
     pub(crate) condensed: Condensed<D>,
 }
 
+impl<const D: usize> Part<D> {
+    /// With A at an unstrained length [N]; `None` for a cable that hangs folded.
+    fn new(
+        elements: &[Element],
+        beginning: Beginning<D>,
+        density: f64,
+        modulus: impl Fn(f64) -> [[f64; D]; D],
+    ) -> Option<Self> {
+        let condensed = Condensed::new(&assemble(elements, &beginning, density, modulus))?;
+        Some(Self { beginning, condensed })
+    }
+
+    /// Adds the mass of the static shapes along the axes of the cable [kg].
+    fn add_mass(&self, mass: &mut Matrix3<f64>) {
+        for (i, row) in axes::<D>().iter().zip(self.condensed.mass) {
+            axes::<D>().iter().zip(row).for_each(|(j, value)| mass[(*i, *j)] += value);
+        }
+    }
+
+    fn yielding(&self, unknown: usize) -> (Vector3<f64>, f64) {
+        let (motion, flexibility) = self.condensed.yielding(unknown);
+        (in_space(motion), flexibility)
+    }
+}
+
+/// The motions of a cable: those in its plane and those across it, which a wheel with a tilted axis couples.
+pub(crate) enum Motions {
+    Apart { in_plane: Part<2>, across: Part<1> },
+    Together(Part<3>),
+}
+
 /// A cable as elements.
 pub(crate) struct Parts {
     pub(crate) elements: Vec<Element>,
-    pub(crate) in_plane: Part<2>,
-    pub(crate) across: Part<1>,
-    /// The unknown of the plane, behind those of the end, that is the rotor of a winch.
+    pub(crate) motions: Motions,
+    /// The unknown of the plane or of space, behind those of the end, that is the rotor of a winch.
     rotor: Option<usize>,
 }
 
@@ -79,7 +121,7 @@ impl Parts {
     ) -> Result<Self, DynamicsError> {
         let free = Free { cable: i, free: cable.catenary.free() };
         let elements = free.elements(cable.linear_density, highest)?;
-        let Beginnings { in_plane, across, rotor } = free.beginnings(cable, winch);
+        let (begins, rotor) = free.beginnings(cable, winch);
         let density = cable.linear_density;
         let folded = || match winch {
             None => DynamicsError::Folded { cable: i },
@@ -89,19 +131,49 @@ impl Parts {
                 expected: format!("more: cable {} hangs folded or runs out by its own weight", i + 1),
             },
         };
-        let matrices = assemble(&elements, &in_plane, density, |s| free.modulus(s));
-        let condensed = Condensed::new(&matrices).ok_or_else(folded)?;
-        let in_plane = Part { beginning: in_plane, condensed };
-        let matrices = assemble(&elements, &across, density, |s| [[1.0 / free.slenderness(s)]]);
-        let condensed = Condensed::new(&matrices).ok_or_else(folded)?;
-        Ok(Self { elements, in_plane, across: Part { beginning: across, condensed }, rotor })
+        let motions = match begins {
+            Beginnings::Apart { in_plane, across } => {
+                Part::new(&elements, in_plane, density, |s| free.modulus(s))
+                    .zip(Part::new(&elements, across, density, |s| [[1.0 / free.slenderness(s)]]))
+                    .map(|(in_plane, across)| Motions::Apart { in_plane, across })
+            }
+            Beginnings::Together(begins) => {
+                Part::new(&elements, begins, density, |s| free.modulus_in_space(s)).map(Motions::Together)
+            }
+        };
+        Ok(Self { elements, motions: motions.ok_or_else(folded)?, rotor })
     }
 
     /// The motions with the end held: those in the plane, then those across it.
     pub(crate) fn held(&self, cable: &CableAtRest) -> Vec<HeldMode> {
-        let in_plane = self.in_plane.condensed.modes.iter().map(|mode| HeldMode::in_plane(cable, mode));
-        let across = self.across.condensed.modes.iter().map(|mode| HeldMode::across(cable, mode));
-        in_plane.chain(across).collect()
+        match &self.motions {
+            Motions::Apart { in_plane, across } => {
+                let mut all = HeldMode::all(cable, &in_plane.condensed.modes);
+                all.extend(HeldMode::all(cable, &across.condensed.modes));
+                all
+            }
+            Motions::Together(part) => HeldMode::all(cable, &part.condensed.modes),
+        }
+    }
+
+    /// Fewer, which act as all of them do on motions up to `square` = ω² [1/s²].
+    fn reduced(&self, cable: &CableAtRest, square: f64) -> Vec<HeldMode> {
+        match &self.motions {
+            Motions::Apart { in_plane, across } => {
+                let mut all = HeldMode::all(cable, &in_plane.condensed.reduced(square));
+                all.extend(HeldMode::all(cable, &across.condensed.reduced(square)));
+                all
+            }
+            Motions::Together(part) => HeldMode::all(cable, &part.condensed.reduced(square)),
+        }
+    }
+
+    /// How far the rotor moves with the end, and by a force on it while the end is held [m/N].
+    fn yielding(&self) -> Option<(Vector3<f64>, f64)> {
+        self.rotor.map(|rotor| match &self.motions {
+            Motions::Apart { in_plane, .. } => in_plane.yielding(rotor),
+            Motions::Together(part) => part.yielding(rotor),
+        })
     }
 }
 
@@ -123,30 +195,29 @@ impl MovingCable {
             return Ok(Self { mass, softer, modes: Vec::new(), reduced: Vec::new() });
         }
         let parts = Parts::new(i, cable, highest, winch)?;
-        let softer = parts.rotor.map_or_else(Matrix6::zeros, |rotor| {
-            let ([x, z], flexibility) = parts.in_plane.condensed.yielding(rotor);
-            let yielding = HeldMode::new(cable, 0.0, Vector3::new(x, 0.0, z)).coupling;
+        let softer = parts.yielding().map_or_else(Matrix6::zeros, |(motion, flexibility)| {
+            let yielding = HeldMode::new(cable, 0.0, motion).coupling;
             yielding * yielding.transpose() / flexibility
         });
-        let (in_plane, across) = (&parts.in_plane.condensed, &parts.across.condensed);
         let sorted = |mut modes: Vec<HeldMode>| {
             modes.sort_by(|one, other| one.square.total_cmp(&other.square));
             modes
         };
         let square = (KEPT * TAU * highest).powi(2);
-        let slow = (in_plane.reduced(square), across.reduced(square));
-        let in_plane = slow.0.iter().map(|mode| HeldMode::in_plane(cable, mode));
-        let reduced = in_plane.chain(slow.1.iter().map(|mode| HeldMode::across(cable, mode)));
-        let reduced = sorted(reduced.collect());
+        let reduced = sorted(parts.reduced(cable, square));
         Ok(Self { mass: Self::mass(cable, &parts), softer, modes: sorted(parts.held(cable)), reduced })
     }
 
     /// Mass of the static shapes of a cable [kg, kg m, kg m²].
     pub(crate) fn mass(cable: &CableAtRest, parts: &Parts) -> Matrix6<f64> {
-        let (in_plane, across) = (&parts.in_plane.condensed, &parts.across.condensed);
-        let [[xx, xz], [_, zz]] = in_plane.mass;
-        let [[yy]] = across.mass;
-        let mass = Matrix3::new(xx, 0.0, xz, 0.0, yy, 0.0, xz, 0.0, zz);
+        let mut mass = Matrix3::zeros();
+        match &parts.motions {
+            Motions::Apart { in_plane, across } => {
+                in_plane.add_mass(&mut mass);
+                across.add_mass(&mut mass);
+            }
+            Motions::Together(part) => part.add_mass(&mut mass),
+        }
         let mass = cable.axes * mass * cable.axes.transpose();
         let lever = cable.lever.cross_matrix();
         let mut on_platform = Matrix6::zeros();

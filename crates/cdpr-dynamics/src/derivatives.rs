@@ -14,7 +14,7 @@
 pub(crate) mod amplitude;
 mod changes;
 
-use crate::cable::Parts;
+use crate::cable::{Motions, Parts};
 use crate::derivatives::changes::{Changes, Moved};
 use crate::energy::{CableEnergy, Vibrating, real};
 use crate::error::DynamicsError;
@@ -75,7 +75,7 @@ impl FrequencyDerivatives {
         let motion = Motion::near(&at_rest, &parts, mode.frequency, start)?;
         let gravity = problem.robot().gravity.vector();
         let energy = |(number, cable): (usize, &CableAtRest)| {
-            let vibrating = natural((number, cable, parts[number].as_ref()?), &motion);
+            let vibrating = natural((number, cable, parts[number].as_ref()?), &motion)?;
             Some(CableEnergy::new(&vibrating, &gravity))
         };
         let moved = Moved {
@@ -153,26 +153,27 @@ fn with_lengths(per_input: &[f64], per_length: &[f64], lengths: &DMatrix<f64>) -
     per_input.iter().enumerate().take(lengths.ncols()).map(of).collect()
 }
 
-/// How a cable vibrates in a natural motion.
+/// How a cable vibrates in a natural motion; none over a wheel with a tilted axis, which is [`lacking`].
 fn natural<'a>(
     (number, at_rest, parts): (usize, &'a CableAtRest<'a>, &'a Parts),
     motion: &Motion,
-) -> Vibrating<'a> {
+) -> Option<Vibrating<'a>> {
+    let Motions::Apart { in_plane: plane, across: side } = &parts.motions else { return None };
     let end = at_rest.axes.tr_mul(&end(at_rest, &motion.v));
     let amplitudes = &motion.amplitudes[number];
-    let (in_plane, across) = amplitudes.split_at(parts.in_plane.condensed.modes.len());
-    let in_plane = parts.in_plane.condensed.unknowns([end.x, end.z], in_plane);
-    let across = parts.across.condensed.unknowns([end.y], across);
+    let (in_plane, across) = amplitudes.split_at(plane.condensed.modes.len());
+    let in_plane = plane.condensed.unknowns([end.x, end.z], in_plane);
+    let across = side.condensed.unknowns([end.y], across);
     let complex = |unknowns: Vec<f64>| unknowns.into_iter().map(real).collect();
-    Vibrating {
+    Some(Vibrating {
         number,
         at_rest,
         elements: &parts.elements,
-        in_plane: (&parts.in_plane.beginning, complex(in_plane)),
-        across: (&parts.across.beginning, complex(across)),
+        in_plane: (&plane.beginning, complex(in_plane)),
+        across: (&side.beginning, complex(across)),
         square: real(motion.square),
         viscous: real(0.0),
-    }
+    })
 }
 
 /// The relative distance of a frequency from the others, and from that up to which they are known.

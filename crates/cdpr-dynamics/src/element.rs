@@ -53,6 +53,18 @@ impl<const D: usize> Beginning<D> {
     pub(crate) fn fixed() -> Self {
         Self { directions: Vec::new(), matrices: Matrices::zeros(0) }
     }
+
+    /// A point that yields with this compliance [m/N]; what is below `rounding` is none.
+    pub(crate) fn yielding(compliance: [[f64; D]; D], rounding: f64) -> Self {
+        let eigen = DMatrix::from_fn(D, D, |i, j| compliance[i][j]).symmetric_eigen();
+        let soft: Vec<usize> = (0..D).filter(|k| eigen.eigenvalues[*k] > rounding).collect();
+        let mut matrices = Matrices::zeros(soft.len());
+        for (row, k) in soft.iter().enumerate() {
+            matrices.stiffness[(row, row)] = eigen.eigenvalues[*k].recip();
+        }
+        let direction = |k: &usize| std::array::from_fn(|c| eigen.eigenvectors[(c, *k)]);
+        Self { directions: soft.iter().map(direction).collect(), matrices }
+    }
 }
 
 /// An unknown and the direction in which it moves the cable.

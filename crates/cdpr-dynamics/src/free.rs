@@ -4,7 +4,7 @@ use crate::element::{Beginning, Element, Matrices, assemble};
 use crate::error::DynamicsError;
 use cdpr_cable::{Catenary, ElasticLaw};
 use cdpr_statics::vibration::CableAtRest;
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{Matrix2, Matrix3, Vector2};
 use std::f64::consts::TAU;
 
 /// Degree of an element beyond 1.6 for each half wave: Legendre's polynomials need π points a wave.
@@ -70,11 +70,10 @@ impl Rotor {
     }
 }
 
-/// How a cable begins in its plane and across it, and which row of the former is the rotor of its winch.
-pub(crate) struct Beginnings {
-    pub(crate) in_plane: Beginning<2>,
-    pub(crate) across: Beginning<1>,
-    pub(crate) rotor: Option<usize>,
+/// How a cable begins: in its plane and across it, which a wheel with a tilted axis couples.
+pub(crate) enum Beginnings {
+    Apart { in_plane: Beginning<2>, across: Beginning<1> },
+    Together(Beginning<3>),
 }
 
 /// The free part of a cable, beyond its exit or leave point.
@@ -104,6 +103,12 @@ impl Free<'_> {
         let t = tension.normalize();
         let modulus = Matrix2::identity() * across + t * t.transpose() * (along - across);
         [[modulus[(0, 0)], modulus[(0, 1)]], [modulus[(1, 0)], modulus[(1, 1)]]]
+    }
+
+    /// The same in space: along the plane, across it, upwards.
+    pub(crate) fn modulus_in_space(&self, s: f64) -> [[f64; 3]; 3] {
+        let [[xx, xz], [zx, zz]] = self.modulus(s);
+        [[xx, 0.0, xz], [0.0, self.slenderness(s).recip(), 0.0], [zx, 0.0, zz]]
     }
 
     /// Elements that end where the law of the cable has a kink, and that are short where it turns.
@@ -213,43 +218,52 @@ impl Free<'_> {
     /// ```text
     /// K_xx = k + sum t_i² (K_i - σ) + (1 - sum t_i²) σ,   K_xi = -t_i (K_i - σ),   σ = w t_z/(1 + ε)   (N20)
     /// ```
-    pub(crate) fn beginnings(&self, cable: &CableAtRest, rotor: Option<Rotor>) -> Beginnings {
+    ///
+    /// The second one is the row of the rotor, in the plane or in space.
+    pub(crate) fn beginnings(
+        &self,
+        cable: &CableAtRest,
+        rotor: Option<Rotor>,
+    ) -> (Beginnings, Option<usize>) {
         let guide = cable.catenary.cable.guide;
         if guide.is_some_and(|guide| guide.radius == 0.0 && guide.lead > 0.0) {
             let start = rotor.map_or_else(Beginning::fixed, |rotor| rotor.start());
             let in_plane = self.behind_lead(cable, &start).0;
             // The first unknown is the exit point.
-            return Beginnings { in_plane, across: Beginning::fixed(), rotor: rotor.map(|_| 1) };
+            return (Beginnings::Apart { in_plane, across: Beginning::fixed() }, rotor.map(|_| 1));
         }
-        let (mut in_plane, across) = match guide {
+        let mut begins = match guide {
             Some(guide) if guide.radius > 0.0 => self.on_pulley(cable),
-            _ => (Beginning::fixed(), Beginning::fixed()),
+            _ => Beginnings::Apart { in_plane: Beginning::fixed(), across: Beginning::fixed() },
         };
-        let row = rotor.map(|rotor| self.fed_by(&rotor, &mut in_plane));
-        Beginnings { in_plane, across, rotor: row }
+        let along = self.tension(0.0).normalize();
+        let row = rotor.map(|rotor| match &mut begins {
+            Beginnings::Apart { in_plane, .. } => self.fed_by(&rotor, along.into(), in_plane),
+            Beginnings::Together(begins) => self.fed_by(&rotor, [along.x, 0.0, along.y], begins),
+        });
+        (begins, row)
     }
 
-    /// Adds the rotor of a winch to a beginning, by (N20); its row.
-    fn fed_by(&self, rotor: &Rotor, beginning: &mut Beginning<2>) -> usize {
+    /// Adds the rotor of a winch to a beginning with this direction of the cable, by (N20); its row.
+    fn fed_by<const D: usize>(&self, rotor: &Rotor, along: [f64; D], beginning: &mut Beginning<D>) -> usize {
         let tension = self.tension(0.0);
-        let along = tension.normalize();
-        let slid =
-            self.free.cable.weight_per_length * along.y / (1.0 + self.free.cable.strain(tension.norm()));
+        let stretch = 1.0 + self.free.cable.strain(tension.norm());
+        let slid = self.free.cable.weight_per_length * tension.y / (tension.norm() * stretch);
         let row = beginning.directions.len();
         let Matrices { stiffness, mass } = &beginning.matrices;
         let [mut stiffness, mut mass] = [stiffness, mass].map(|of| of.clone().resize(row + 1, row + 1, 0.0));
         let (mut rest, mut own) = (along, rotor.stiffness);
-        for (k, [x, z]) in beginning.directions.iter().enumerate() {
-            let part = along.x * x + along.y * z;
+        for (k, direction) in beginning.directions.iter().enumerate() {
+            let part: f64 = along.iter().zip(direction).map(|(one, other)| one * other).sum();
             let pull = part * (stiffness[(k, k)] - slid);
-            rest -= Vector2::new(*x, *z) * part;
+            rest.iter_mut().zip(direction).for_each(|(rest, of)| *rest -= of * part);
             own += part * pull;
             (stiffness[(k, row)], stiffness[(row, k)]) = (-pull, -pull);
         }
-        stiffness[(row, row)] = own + slid * rest.norm_squared();
+        stiffness[(row, row)] = own + slid * rest.iter().map(|part| part * part).sum::<f64>();
         mass[(row, row)] = rotor.mass;
         beginning.matrices = Matrices { stiffness, mass };
-        beginning.directions.push(rest.into());
+        beginning.directions.push(rest);
         row
     }
 
@@ -268,26 +282,23 @@ impl Free<'_> {
         (Beginning { directions: vec![along.into()], matrices }, stretched)
     }
 
-    fn on_pulley(&self, cable: &CableAtRest) -> (Beginning<2>, Beginning<1>) {
+    fn on_pulley(&self, cable: &CableAtRest) -> Beginnings {
         let response = self.free.response();
-        let [xx, xz, zz] = response.flexibility;
-        let free = Matrix2::new(xx, xz, xz, zz);
+        let ([xx, xz, zz], yy) = (response.flexibility, response.lateral_flexibility);
+        let free = Matrix3::new(xx, 0.0, xz, 0.0, yy, 0.0, xz, 0.0, zz);
         let whole = cable.axes.transpose() * cable.end_stiffness * cable.axes;
+        let rounding = ROUNDING * Matrix2::new(xx, xz, xz, zz).norm();
+        if cable.catenary.cable.leaves_its_plane() {
+            let whole = 0.5 * (whole + whole.transpose());
+            let more = whole.try_inverse().map_or_else(Matrix3::zeros, |whole| whole - free);
+            return Beginnings::Together(Beginning::yielding(more.into(), rounding));
+        }
         let in_plane = Matrix2::new(whole.m11, whole.m13, whole.m13, whole.m33);
-        let rounding = ROUNDING * free.norm();
-        let more = in_plane.try_inverse().map_or_else(Matrix2::zeros, |whole| whole - free).symmetric_eigen();
-        let soft: Vec<_> = (0..2).filter(|k| more.eigenvalues[*k] > rounding).collect();
-        let mut matrices = Matrices::zeros(soft.len());
-        for (row, k) in soft.iter().enumerate() {
-            matrices.stiffness[(row, row)] = more.eigenvalues[*k].recip();
+        let free = Matrix2::new(xx, xz, xz, zz);
+        let more = in_plane.try_inverse().map_or_else(Matrix2::zeros, |whole| whole - free);
+        Beginnings::Apart {
+            in_plane: Beginning::yielding(more.into(), rounding),
+            across: Beginning::yielding([[whole.m22.recip() - yy]], ROUNDING * yy),
         }
-        let directions = soft.iter().map(|k| more.eigenvectors.column(*k).into_owned().into()).collect();
-        let across = whole.m22.recip() - response.lateral_flexibility;
-        let mut lateral = Beginning::fixed();
-        if across > ROUNDING * response.lateral_flexibility {
-            lateral = Beginning { directions: vec![[1.0]], matrices: Matrices::zeros(1) };
-            lateral.matrices.stiffness[(0, 0)] = across.recip();
-        }
-        (Beginning { directions, matrices }, lateral)
     }
 }

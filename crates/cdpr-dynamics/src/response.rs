@@ -22,7 +22,7 @@
 //! ```
 //!
 //! with the whole K, which a moment makes unsymmetric, and the dynamic stiffness A_i of the end of a cable. A
-//! wheel with a tilted axis couples motions in the plane of its cable with those across it in K and F_i(0).
+//! wheel with a tilted axis couples motions in the plane of its cable with those across it.
 //! A motion n with `K n = 0` has no bound at 0 Hz. All others are those of low frequencies there:
 //!
 //! ```text

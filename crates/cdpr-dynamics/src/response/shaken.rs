@@ -1,6 +1,6 @@
 //! A cable whose winch and whose anchor point are shaken, and what damps it, (N13).
 
-use crate::cable::{MovingCable, Parts};
+use crate::cable::{Motions, MovingCable, Parts};
 use crate::element::{Beginning, Element, Matrices, assemble};
 use crate::energy::{Number, Vector, Vibrating, real};
 use crate::error::DynamicsError;
@@ -39,11 +39,17 @@ pub(super) struct ShakenCable {
     /// Mass of its static shapes, seen from the platform [kg, kg m, kg m²].
     pub(super) static_mass: Matrix6<f64>,
     elements: Vec<Element>,
-    in_plane: Shaken<2>,
-    across: Shaken<1>,
+    motions: ShakenMotions,
 }
 
-/// Unknowns of a cable in its plane or across it.
+/// Those in the plane of a cable and across it, which a wheel with a tilted axis couples.
+#[derive(Clone, Debug)]
+enum ShakenMotions {
+    Apart { in_plane: Shaken<2>, across: Shaken<1> },
+    Together(Shaken<3>),
+}
+
+/// Unknowns of a cable in its plane, across it, or in both.
 #[derive(Clone, Debug)]
 struct Shaken<const D: usize> {
     beginning: Beginning<D>,
@@ -73,26 +79,35 @@ impl ShakenCable {
         // Checks that it hangs nowhere without tension.
         let parts = Parts::new(i, cable, MARGIN * highest, None)?;
         let static_mass = MovingCable::mass(cable, &parts);
-        let Parts { elements, across, .. } = parts;
-        let (beginning, damped, winch) = driven(&free, cable)?;
+        let Parts { elements, motions, .. } = parts;
         let density = cable.linear_density;
-        let Matrices { stiffness, mass } = assemble(&elements, &beginning, density, |s| free.modulus(s));
-        let stretched = |s: f64| {
-            let tension = free.tension(s);
-            let (t, modulus) = (tension.normalize(), free.free.cable.tangent_stiffness(tension.norm()));
-            [[modulus * t.x * t.x, modulus * t.x * t.y], [modulus * t.x * t.y, modulus * t.y * t.y]]
+        let motions = match motions {
+            Motions::Apart { in_plane, across } => {
+                let driven = driven(&free, cable, in_plane.beginning);
+                let in_plane = Shaken::new(&elements, driven, density, |s| {
+                    let tension = free.tension(s);
+                    [free.modulus(s), stretched(&free, s, tension.into())]
+                });
+                let still = (across.beginning, Winch::default());
+                let across = Shaken::new(&elements, undamped(still), density, |s| {
+                    [[[1.0 / free.slenderness(s)]], [[0.0]]]
+                });
+                ShakenMotions::Apart { in_plane, across }
+            }
+            Motions::Together(part) => {
+                let along = |s: f64| {
+                    let tension = free.tension(s);
+                    [tension.x, 0.0, tension.y]
+                };
+                let driven = undamped(on_wheel(&free, part.beginning, along(0.0)));
+                ShakenMotions::Together(Shaken::new(&elements, driven, density, |s| {
+                    [free.modulus_in_space(s), stretched(&free, s, along(s))]
+                }))
+            }
         };
-        let damping = Beginning { matrices: damped, directions: beginning.directions.clone() };
-        let damped = assemble(&elements, &damping, 0.0, stretched).stiffness;
-        let in_plane = Shaken { beginning, stiffness, damped, mass, winch };
-        let beginning = across.beginning;
-        let matrices = assemble(&elements, &beginning, density, |s| [[1.0 / free.slenderness(s)]]);
-        let Matrices { stiffness, mass } = matrices;
-        let damped = DMatrix::zeros(stiffness.nrows(), stiffness.nrows());
-        let across = Shaken { beginning, stiffness, damped, mass, winch: Winch::default() };
         let (still, more_pull) = (Matrix3::zeros(), Vector3::zeros());
         let (axes, lever) = (cable.axes, cable.lever);
-        let found = Self { axes, lever, still, more_pull, static_mass, elements, in_plane, across };
+        let found = Self { axes, lever, still, more_pull, static_mass, elements, motions };
         let at_rest = found.at(0.0, &Damping::default()).ok_or(DynamicsError::Folded { cable: i })?;
         let still = at_rest.0.map(|value| value.re);
         let more_pull = static_pull(cable)
@@ -102,16 +117,24 @@ impl ShakenCable {
 
     /// Stiffness of its end, and the force on its held end by its winch, in the base frame.
     pub(super) fn at(&self, omega: f64, damping: &Damping) -> Option<StiffnessAndPull> {
-        let (in_plane, winch) = self.in_plane.at(omega, damping)?;
-        let (across, _) = self.across.at(omega, damping)?;
         let o = real(0.0);
-        let [[xx, xz], [zx, zz]] = in_plane;
-        let local = Matrix3::new(xx, o, xz, o, across[0][0], o, zx, o, zz);
+        let (local, winch) = match &self.motions {
+            ShakenMotions::Apart { in_plane, across } => {
+                let ([[xx, xz], [zx, zz]], [x, z]) = in_plane.at(omega, damping)?;
+                let ([[yy]], _) = across.at(omega, damping)?;
+                (Matrix3::new(xx, o, xz, o, yy, o, zx, o, zz), Vector::new(x, o, z))
+            }
+            ShakenMotions::Together(all) => {
+                let (local, winch) = all.at(omega, damping)?;
+                (Matrix3::from_fn(|i, j| local[i][j]), winch.into())
+            }
+        };
         let axes = self.axes.map(real);
-        Some((axes * local * axes.transpose(), axes * Vector::new(winch[0], o, winch[1])))
+        Some((axes * local * axes.transpose(), axes * winch))
     }
 
-    /// How cable `number` vibrates while its winch holds and its end moves by `end`.
+    /// How cable `number` vibrates while its winch holds and its end moves by `end`; none over a wheel with a
+    /// tilted axis.
     pub(super) fn vibrating<'a>(
         &'a self,
         (number, at_rest): (usize, &'a CableAtRest<'a>),
@@ -119,13 +142,14 @@ impl ShakenCable {
         omega: f64,
         damping: &Damping,
     ) -> Option<Vibrating<'a>> {
+        let ShakenMotions::Apart { in_plane, across } = &self.motions else { return None };
         let end = self.axes.map(real).tr_mul(end);
         Some(Vibrating {
             number,
             at_rest,
             elements: &self.elements,
-            in_plane: (&self.in_plane.beginning, self.in_plane.unknowns([end.x, end.z], omega, damping)?),
-            across: (&self.across.beginning, self.across.unknowns([end.y], omega, damping)?),
+            in_plane: (&in_plane.beginning, in_plane.unknowns([end.x, end.z], omega, damping)?),
+            across: (&across.beginning, across.unknowns([end.y], omega, damping)?),
             square: Complex::new(omega * omega, -omega * damping.drag),
             viscous: Complex::new(0.0, omega * damping.stretch),
         })
@@ -133,6 +157,20 @@ impl ShakenCable {
 }
 
 impl<const D: usize> Shaken<D> {
+    /// From how it begins, the part of that which damps, and its winch; with A at an unstrained length and the
+    /// part of it that damps [N].
+    fn new(
+        elements: &[Element],
+        (beginning, damped, winch): Driven<D>,
+        density: f64,
+        modulus: impl Fn(f64) -> [[[f64; D]; D]; 2],
+    ) -> Self {
+        let Matrices { stiffness, mass } = assemble(elements, &beginning, density, |s| modulus(s)[0]);
+        let damping = Beginning { matrices: damped, directions: beginning.directions.clone() };
+        let damped = assemble(elements, &damping, 0.0, |s| modulus(s)[1]).stiffness;
+        Self { beginning, stiffness, damped, mass, winch }
+    }
+
     /// Its dynamic stiffness.
     fn value(&self, i: usize, j: usize, omega: f64, damping: &Damping) -> Number {
         Complex::new(self.stiffness[(i, j)], omega * damping.stretch * self.damped[(i, j)])
@@ -195,38 +233,68 @@ fn static_pull(cable: &CableAtRest) -> Option<Vector3<f64>> {
 }
 
 /// Where a cable begins with a winch that moves it: its unknowns, their part that damps, and the winch.
-fn driven(free: &Free, cable: &CableAtRest) -> Result<(Beginning<2>, Matrices, Winch), DynamicsError> {
+type Driven<const D: usize> = (Beginning<D>, Matrices, Winch);
+
+/// A cable in its plane, which begins like that on a winch that holds.
+fn driven(free: &Free, cable: &CableAtRest, held: Beginning<2>) -> Driven<2> {
     let tension = free.tension(0.0);
-    let (along, stretch) = (tension.normalize(), 1.0 + free.free.cable.strain(tension.norm()));
     let guide = cable.catenary.cable.guide;
     if guide.is_some_and(|guide| guide.radius == 0.0 && guide.lead > 0.0) {
         let start = Beginning { directions: vec![[1.0]], matrices: Matrices::zeros(1) };
         let (beginning, damped) = free.behind_lead(cable, &start);
+        let stretch = 1.0 + free.free.cable.strain(tension.norm());
         // The first unknown is the exit point, the second one the winch.
-        return Ok((beginning, damped, Winch { moved: Some((2 + 1, -stretch)), pulled: Vec::new() }));
+        return (beginning, damped, Winch { moved: Some((2 + 1, -stretch)), pulled: Vec::new() });
     }
-    let mut beginning = free.beginnings(cable, None).in_plane;
+    undamped(on_wheel(free, held, tension.into()))
+}
+
+fn undamped<const D: usize>((beginning, winch): (Beginning<D>, Winch)) -> Driven<D> {
+    let damped = Matrices::zeros(beginning.matrices.stiffness.nrows());
+    (beginning, damped, winch)
+}
+
+/// A cable that begins at a point or a wheel, with its tension there, and its winch.
+fn on_wheel<const D: usize>(
+    free: &Free,
+    mut beginning: Beginning<D>,
+    tension: [f64; D],
+) -> (Beginning<D>, Winch) {
+    let size = norm(tension);
+    let (along, stretch) = (tension.map(|part| part / size), 1.0 + free.free.cable.strain(size));
     let soft = beginning.directions.len();
     let mut winch = Winch::default();
     let mut rest = along;
     // Where cable slides upwards, the tension behind it is smaller by its weight, as in (N7).
-    let slid = free.free.cable.weight_per_length * along.y;
-    for (k, [x, z]) in beginning.directions.iter().enumerate() {
-        let part = along.x * x + along.y * z;
-        rest -= nalgebra::Vector2::new(*x, *z) * part;
-        winch.pulled.push((2 + k, part * (slid - stretch * beginning.matrices.stiffness[(k, k)])));
+    let slid = free.free.cable.weight_per_length * along[D - 1];
+    for (k, direction) in beginning.directions.iter().enumerate() {
+        let part: f64 = along.iter().zip(direction).map(|(one, other)| one * other).sum();
+        rest.iter_mut().zip(direction).for_each(|(rest, of)| *rest -= of * part);
+        winch.pulled.push((D + k, part * (slid - stretch * beginning.matrices.stiffness[(k, k)])));
     }
     /// Part of the direction below which a pulley yields along all of it.
     const ROUNDING: f64 = 1e-9;
-    if rest.norm() > ROUNDING {
-        beginning.directions.push(rest.normalize().into());
+    let left = norm(rest);
+    if left > ROUNDING {
+        beginning.directions.push(rest.map(|part| part / left));
         let Matrices { stiffness, mass } = beginning.matrices;
         let [stiffness, mass] = [stiffness, mass].map(|matrix| matrix.resize(soft + 1, soft + 1, 0.0));
         beginning.matrices = Matrices { stiffness, mass };
-        winch.moved = Some((2 + soft, -stretch * rest.norm()));
+        winch.moved = Some((D + soft, -stretch * left));
     }
-    let damped = Matrices::zeros(beginning.matrices.stiffness.nrows());
-    Ok((beginning, damped, winch))
+    (beginning, winch)
+}
+
+fn norm<const D: usize>(of: [f64; D]) -> f64 {
+    of.iter().map(|part| part * part).sum::<f64>().sqrt()
+}
+
+/// The part of A along a cable with this tension at an unstrained length [N], which damps.
+fn stretched<const D: usize>(free: &Free, s: f64, tension: [f64; D]) -> [[f64; D]; D] {
+    let size = norm(tension);
+    let modulus = free.free.cable.tangent_stiffness(free.tension(s).norm());
+    let t = tension.map(|part| part / size);
+    t.map(|one| t.map(|other| modulus * one * other))
 }
 
 #[cfg(test)]
