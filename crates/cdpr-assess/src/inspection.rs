@@ -75,16 +75,19 @@ pub fn inspect(robot: &Robot) -> Vec<Finding> {
             Severity::Note,
             "cables",
             format!("{cables} for {freedoms} free motions"),
-            &format!("{} of the coordinates of a pose follow from the others", freedoms - cables),
+            &match freedoms - cables {
+                1 => "one coordinate of a pose follows from the others".to_owned(),
+                more => format!("{more} coordinates of a pose follow from the others"),
+            },
             &pose::remedy_for_few(robot),
         ),
         // The values in doubt are the reason.
         None if doubtful => {}
         None => findings.add(
             Severity::Warning,
-            "cables",
-            "no pose held".to_owned(),
-            "the platform, level, is held nowhere on the vertical through the middle of the exit points",
+            "platform",
+            "held nowhere, level, on the vertical through the middle of the exit points".to_owned(),
+            "no tensions within the limits balance its weight there",
             "check points, mass and tension_limits; `cdpr workspace` shows what is held elsewhere",
         ),
     }

@@ -62,13 +62,16 @@ pub(crate) fn check_columns(
     }
     let placed = PlacedRows { robot, size: size(robot), rows };
     let misfit = placed.mean_misfit(ORDER, SIGNS);
+    placed.check_unit(misfit)?;
     placed.check_coordinates(misfit)?;
+    placed.check_rotations(misfit)?;
     placed.check_leads(misfit)?;
     placed.check_order_of_lengths(misfit)?;
     placed.check_lengths()
 }
 
 /// A row with a measured position and lengths.
+#[derive(Clone, Copy)]
 struct Placed<'a> {
     position: Vector3<f64>,
     rotation: Rotation3<f64>,
@@ -117,6 +120,34 @@ impl PlacedRows<'_> {
     fn mean_misfit(&self, order: [usize; 3], sign: [f64; 3]) -> f64 {
         let n = self.robot.cables.len();
         (0..n).map(|i| self.misfit([i, i], order, sign)).sum::<f64>() / n as f64
+    }
+
+    /// Refuses positions in m that stand for mm, and the other way.
+    fn check_unit(&self, misfit: f64) -> Result<(), CalibrationError> {
+        for (factor, expected) in [(1e3, "1000 times the values"), (1e-3, "the values divided by 1000")] {
+            if misfit > FAR * self.size && self.mean_misfit(ORDER, [factor; 3]) < LEFT * misfit {
+                let [first, _, last] = Axis::ALL.map(|axis| Quantity::Position(axis).to_string());
+                let expected =
+                    format!("{expected}: lengths and positions would then fit. Are m and mm mixed up?");
+                return Err(CalibrationError::Column { column: format!("{first} to {last}"), expected });
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses rotations from the base frame to the platform.
+    fn check_rotations(&self, misfit: f64) -> Result<(), CalibrationError> {
+        let turned = self.rows.iter().map(|of| Placed { rotation: of.rotation.inverse(), ..*of });
+        let inverse = PlacedRows { rows: turned.collect(), ..*self };
+        if misfit > SWAPPED * self.size && inverse.mean_misfit(ORDER, SIGNS) < LEFT * misfit {
+            let expected =
+                "from the platform frame to the base frame: lengths and poses fit the inverse rotation";
+            return Err(CalibrationError::Column {
+                column: "of the rotation".into(),
+                expected: expected.into(),
+            });
+        }
+        Ok(())
     }
 
     /// Refuses a coordinate with the other sign, and two that are swapped.

@@ -119,6 +119,35 @@ fn two_lengths_that_are_swapped_are_named_behind_leads_and_pulleys() {
     }
 }
 
+/// Cables of FAST sag by more than its rotations change their lengths.
+#[test]
+fn positions_in_another_unit_and_inverse_rotations_are_named() {
+    for case in cases() {
+        let deviations = vec![0.0; case.stds.len()];
+        let rows = simulate(&case.simulated(&deviations, &case.poses(12), EXTERNAL, 5)).unwrap();
+        let unknowns = Unknowns::of_model(&case.model());
+        let refused = |rows: &[Row]| {
+            let found =
+                fit(&case.robot, rows, &unknowns, &FitSettings { starts: 1, ..FitSettings::default() });
+            found.map_or_else(|error| error.to_string(), |_| "none".to_owned())
+        };
+        for (factor, words) in [(1e-3, "expected 1000 times"), (1e3, "expected the values divided by 1000")] {
+            let mut rows = rows.clone();
+            for reading in rows.iter_mut().flat_map(|row| &mut row.readings) {
+                if matches!(reading.quantity, Quantity::Position(_)) {
+                    reading.value *= factor;
+                }
+            }
+            let error = refused(&rows);
+            assert!(error.contains(words), "{} {factor}: {error}", case.name);
+        }
+        let mut turned = rows.clone();
+        turned.iter_mut().for_each(|row| row.rotation = row.rotation.map(|of| of.inverse()));
+        let error = refused(&turned);
+        assert!(case.name == "FAST" || error.contains("the inverse rotation"), "{}: {error}", case.name);
+    }
+}
+
 #[test]
 fn lengths_without_the_leads_of_the_robot_are_named() {
     for case in cases().iter().filter(|case| case.name != "FAST") {

@@ -51,8 +51,8 @@ impl Findings<'_> {
         self.add(
             Severity::Warning,
             "cables[*].anchor_point",
-            format!("those of cables {}", pairs.join(", or ")),
-            "exchanged, the robot holds a pose at which no cables touch; as it is, it does not",
+            format!("perhaps exchanged for cables {}", pairs.join(", or ")),
+            "the other way round, the robot holds a pose at which no cables touch; as it is, it does not",
             "check which cable is at which anchor point",
         );
     }

@@ -36,9 +36,6 @@ pub(crate) fn header(results: &Results) -> Markup {
     }
 }
 
-/// Inputs in the table of a verdict.
-const RECOMMENDED: usize = 5;
-
 /// The answer of a part of the study, and the recommended measure of its leading inputs.
 fn verdict(name: &str, part: &StudySummary) -> Markup {
     let PartVerdict { sentences, recommendation } = part.verdict();
@@ -49,7 +46,7 @@ fn verdict(name: &str, part: &StudySummary) -> Markup {
             @let row = |of: &RecommendedIndex| -> Vec<Markup> {
                 vec![cell(parameters::symbol(&of.input)), cell(recommendation.cell(of))]
             };
-            @let rows = recommendation.inputs.iter().take(RECOMMENDED).map(row).collect::<Vec<_>>();
+            @let rows = recommendation.leading().iter().map(row).collect::<Vec<_>>();
             (table(&text::capital(&recommendation.caption()), &["Parameter", "Share, or index"], &rows))
         }
     }

@@ -99,6 +99,12 @@ impl Recommendation {
         of.map(|of| of.input.as_str()).collect()
     }
 
+    /// The inputs of a short table: five, or all that certainly matter up to ten.
+    pub fn leading(&self) -> &[RecommendedIndex] {
+        let count = self.with(Standing::Matters).len().clamp(5, 10);
+        &self.inputs[..count.min(self.inputs.len())]
+    }
+
     /// Which inputs matter, which do not, and what would settle the others.
     pub(crate) fn sentences(&self) -> Vec<String> {
         let percent = 100.0 * MATTERS;

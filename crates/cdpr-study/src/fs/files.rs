@@ -94,7 +94,10 @@ fn read_named<T>(
 }
 
 fn no_such_name(name: &str, library: &[LibraryFile], kind: InputKind) -> StudyError {
-    StudyError::NoSuchName { name: name.to_owned(), kind, near: near(library, name).join(", ") }
+    let is_cable = kind == InputKind::Robot && named(CABLES, name).is_some();
+    let mut near = near(library, name);
+    near.extend(is_cable.then_some("the cable of that name"));
+    StudyError::NoSuchName { name: name.to_owned(), kind, near: near.join(", ") }
 }
 
 /// Reads the text of a library, or else that of the file.
@@ -138,8 +141,9 @@ mod tests {
         assert_eq!(
             message("expo2015"),
             "no file and no robot of the library is called `expo2015`: near are expo2015-lucia, \
-             expo2015-roberto"
+             expo2015-roberto, the cable of that name"
         );
+        assert!(message("steel-2mm").ends_with("near are the cable of that name"));
         assert!(message("cogiro.json").starts_with("cannot read cogiro.json"));
         assert!(message("robots/cogiro").starts_with("cannot read robots/cogiro"));
         let error = open_cable(Path::new("steel")).unwrap_err().to_string();

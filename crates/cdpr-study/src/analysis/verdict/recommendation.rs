@@ -262,10 +262,13 @@ impl Candidate {
                 (named.zip(values).map(one).collect(), false)
             }
         };
-        // By what is certain first.
+        // Those that certainly matter first, then by the share that is certain.
         let greater =
             |one: &[f64; 2], other: &[f64; 2]| other[0].total_cmp(&one[0]).then(other[1].total_cmp(&one[1]));
-        inputs.sort_by(|one, other| greater(&one.0, &other.0));
+        let is_other = |of: &RecommendedIndex| of.standing != Some(Standing::Matters);
+        inputs.sort_by(|one, other| {
+            is_other(&one.1).cmp(&is_other(&other.1)).then_with(|| greater(&one.0, &other.0))
+        });
         let failed = match self.failed {
             0 => String::new(),
             failed => format!("; {failed} failed, and the shares are those of the others"),

@@ -110,6 +110,13 @@ impl Preference {
     }
 
     fn given_to(&self, mut robot: Robot) -> Result<Robot, ProgramError> {
+        let is_chosen = self.distribution.is_some() || self.tension_reference.is_some();
+        if is_chosen && robot.cables.len() == robot.freedoms().count() {
+            said::note(format_args!(
+                "{} cables and as many free motions: the balance alone gives the tensions, none is chosen",
+                robot.cables.len()
+            ));
+        }
         robot.choose(self.distribution, self.tension_reference.clone());
         if self.tension_reference.is_some() {
             robot.validate().map_err(|error| ProgramError::Usage(format!("--tension-reference: {error}")))?;

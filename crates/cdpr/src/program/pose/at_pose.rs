@@ -9,9 +9,9 @@ use crate::program::error::ProgramError;
 use crate::program::lists::{PoseTable, pose_file};
 use crate::program::output::{Ending, patiently, print_apart, print_sentence, progress};
 use crate::program::questions;
-use crate::program::said::{Said, is_said};
+use crate::program::said::{self, Said, is_said};
 use along::Along;
-use cdpr_robot::{Pose, Robot, broken, shown};
+use cdpr_robot::{Pose, Robot, broken, listing, shown};
 use cdpr_statics::StaticsError;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
@@ -132,8 +132,12 @@ impl RobotAtPose {
     /// The poses of the file.
     pub(crate) fn poses(&self, robot: &Robot) -> Result<Vec<Pose>, ProgramError> {
         let path = self.poses_path()?;
-        let PoseTable { poses, .. } = pose_file(path, robot)?;
+        let PoseTable { poses, further, .. } = pose_file(path, robot)?;
         questions::about_poses(robot, "--poses", &poses);
+        if !further.is_empty() {
+            let names: Vec<&str> = further.iter().map(|(name, _)| name.as_str()).collect();
+            said::note(format_args!("{}", listing("columns of the table without effect: ", &names, "")));
+        }
         Ok(poses)
     }
 

@@ -9,9 +9,6 @@ use cdpr_study::{
     Extremes, Output, Overview, PartVerdict, PosesSummary, Recommendation, StudySummary, Summary, Timings,
 };
 
-/// Leading inputs in the table of the answer.
-const LEADING: usize = 5;
-
 /// Prints the answer of each part of a study.
 pub(super) fn print(summary: &Summary) {
     for (number, (name, part)) in summary.studies.iter().enumerate() {
@@ -34,7 +31,7 @@ fn print_verdict(name: &str, verdict: &PartVerdict) {
 
 fn print_leading(recommendation: &Recommendation) {
     let mut rows = table(&["input", "share, or index"]);
-    for of in recommendation.inputs.iter().take(LEADING) {
+    for of in recommendation.leading() {
         rows.add_row([of.input.clone(), recommendation.cell(of)]);
     }
     println!("{rows}");
