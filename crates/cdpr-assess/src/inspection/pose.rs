@@ -90,8 +90,16 @@ impl Findings<'_> {
             0 => String::new(),
             more => format!(" and as near to {more} cables more"),
         };
+        // Cables of a planar robot may have planes of their own.
+        let (severity, remedy) = match self.robot.plane {
+            Some(_) => (Severity::Note, "nothing, if they pass each other out of the plane"),
+            None => (
+                Severity::Warning,
+                "check the order of the points: each exit_point with the anchor_point of the same cable",
+            ),
+        };
         self.add(
-            Severity::Warning,
+            severity,
             format!("cables[{j}]"),
             format!("{:.1} mm from cable {}{others} {at}", 1e3 * distance.max(0.0), i + 1),
             if distance <= TOUCHING {
@@ -99,7 +107,7 @@ impl Findings<'_> {
             } else {
                 "these cables, as they hang, pass within their thickness"
             },
-            "check the order of the points: each exit_point with the anchor_point of the same cable",
+            remedy,
         );
     }
 
@@ -145,7 +153,7 @@ pub(super) fn remedy_for_few(robot: &Robot) -> String {
         points.all(|coordinate| coordinate == robot.cables[0].exit_point[k])
     };
     let planes = [(2, "xy"), (1, "xz"), (0, "yz")];
-    match planes.into_iter().find(|(k, _)| !robot.platform.point && flat(*k)) {
+    match planes.into_iter().find(|(k, _)| robot.plane.is_none() && !robot.platform.point && flat(*k)) {
         Some((_, plane)) => {
             format!("\"plane\": \"{plane}\" if it moves in this plane alone; else name them as free in poses")
         }
