@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use cdpr_robot::{Doubt, Parameter, Plane, Pose, Robot, plausible, rotation_by_angles};
+use cdpr_robot::{Doubt, Parameter, Plane, Pose, Robot, Vector3, Wrench, plausible, rotation_by_angles};
 
 fn named(name: &str) -> Robot {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/robots");
@@ -112,4 +112,25 @@ fn a_pose_out_of_the_plane_of_a_planar_robot_is_questioned() {
     // In space every pose is as good.
     robot.plane = None;
     assert_eq!(plausible::out_of_plane(&robot, "--pose", &Pose::at(0.3, 0.0, 1.0)), None);
+}
+
+#[test]
+fn what_the_guide_of_a_planar_robot_takes_up_is_questioned() {
+    let mut robot = named("cogiro");
+    robot.plane = Some(Plane::Xz);
+    let normal = Plane::Xz.normal();
+    let doubts = |force: Vector3<f64>, moment: Vector3<f64>| {
+        let found = plausible::wrench(&robot, "", &Wrench { force, moment });
+        Vec::from_iter(found.iter().map(ToString::to_string)).join("\n")
+    };
+    let along = |k: usize| {
+        let mut vector = Vector3::zeros();
+        vector[k] = 1.0;
+        vector
+    };
+    for k in 0..3 {
+        let (force, moment) = (doubts(along(k), Vector3::zeros()), doubts(Vector3::zeros(), along(k)));
+        assert_eq!(force.contains("whose guide takes it up"), k == normal, "{force}");
+        assert_eq!(moment.contains("whose guide takes it up"), k != normal, "{moment}");
+    }
 }

@@ -223,7 +223,23 @@ pub fn wrench(robot: &Robot, of: &str, wrench: &Wrench) -> Doubts {
     } else {
         part("moment", wrench.moment.norm(), "N m", "N mm", most * size)
     };
-    force.into_iter().chain(moment).collect()
+    force.into_iter().chain(moment).chain(held_by_plane(robot, of, wrench)).collect()
+}
+
+/// The parts of a wrench that a planar robot does not feel.
+fn held_by_plane(robot: &Robot, of: &str, wrench: &Wrench) -> Option<Doubt> {
+    let (plane, freedoms) = (robot.plane?, robot.freedoms());
+    let vector = wrench.to_vector();
+    let names = ["force x", "force y", "force z", "moment x", "moment y", "moment z"];
+    let components = if robot.platform.point { 0..3 } else { 0..6 };
+    let k = components.into_iter().find(|k| vector[*k] != 0.0 && !freedoms.contains(*k))?;
+    let (name, unit) = (names[k], if k < 3 { "N" } else { "N m" });
+    Some(Doubt::new(
+        format!("{of}{name}"),
+        format!("{} {unit}", four_digits(vector[k])),
+        format!("the robot moves in the plane {} alone, whose guide takes it up", plane.name()),
+        "forces in the plane, and a moment about its normal",
+    ))
 }
 
 /// Unstrained lengths [m] in another unit, or without their leads, or too short to reach the platform.
