@@ -287,7 +287,11 @@ impl<'a> Model<'a> {
         let tightened = model.parts.iter().zip(&model.weather);
         model.variances = tightened.map(|(part, weather)| if *weather { 0.0 } else { *part }).collect();
         if limit.limit_mm <= least && !model.weather.contains(&true) {
-            return Err(model.unreachable("it is not above the error without any deviation", least));
+            let reason = match model.of {
+                Limited::Deflection => "it is not above the deflection without any deviation",
+                Limited::Position => "it is not above the position error without any deviation",
+            };
+            return Err(model.unreachable(reason, least));
         }
         Ok(model)
     }

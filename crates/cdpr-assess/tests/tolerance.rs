@@ -98,7 +98,9 @@ fn what_cannot_be_kept_is_said() {
     let message = |limit: Limit| budget("mechanical", &limit).unwrap_err();
     let below = message(deflection(1.3));
     assert!(
-        below.starts_with("limit is 1.3 mm: expected one that tolerances reach") && below.contains("1.331"),
+        below.starts_with("limit is 1.3 mm: expected one that tolerances reach")
+            && below.contains("1.331")
+            && below.contains("not above the deflection without any deviation"),
         "{below}"
     );
     for (limit, words) in [

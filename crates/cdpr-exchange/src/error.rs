@@ -91,12 +91,14 @@ pub enum ExchangeError {
     #[error("the files make no robot: {0}")]
     Robot(RobotError),
     /// A robot with something for which the other format has no place.
-    #[error("{field} is {value}: the format has no place for it")]
+    #[error("{field} is {value}: the format has no place for it, expected {expected}")]
     NoPlace {
         /// Path of the field in the robot file.
         field: String,
         /// Its value.
         value: String,
+        /// What the format has a place for.
+        expected: &'static str,
     },
     /// A platform with fewer than six motions, for a format of bodies.
     #[error(

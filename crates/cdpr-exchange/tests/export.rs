@@ -151,4 +151,12 @@ fn what_a_format_has_no_place_for_is_refused_by_its_field() {
     assert_eq!(refused("ipanema-3", Target::Moorpy), "cables[0].pulley");
     assert_eq!(refused("ipanema-3", Target::Moordyn), "cables[0].pulley");
     assert_eq!(refused("caroca-law", Target::Mjcf), "cables[0].cable.law");
+    let words =
+        |robot: &Robot, target| export(robot, &Pose::at(0.0, 0.0, 10.0), target).unwrap_err().to_string();
+    let maslow = words(&robot("caroca"), Target::Maslow);
+    let expected = "plane is not given: the format has no place for it, expected a planar robot with four";
+    assert!(maslow.starts_with(expected), "{maslow}");
+    let point = Robot::from_json(include_str!("../../../docs/how-to/planner/stadium.json")).unwrap();
+    let caspr = words(&point, Target::Caspr);
+    assert!(caspr.ends_with("expected a body; klipper, rrf and table take point masses"), "{caspr}");
 }

@@ -233,6 +233,36 @@ fn payloads_below_a_gram_are_none() {
     let svg = heat_map(&robot, &summary, MapQuantity::PayloadKept, Sheet::SCREEN).unwrap();
     assert!(texts(&svg).iter().any(|text| text.starts_with("0 kg to 0 kg; ")), "{:?}", texts(&svg));
     assert_eq!(texts(&svg).iter().filter(|text| text.starts_with("payload [")).count(), 1);
+    // The title says once how the load is borne.
+    assert_eq!(count(&texts(&svg).join(" "), "lengths kept"), 1, "{:?}", texts(&svg));
+}
+
+#[test]
+fn a_map_of_one_value_has_one_colour_and_one_tick() {
+    let robot = caroca();
+    let mut summary = summary(&robot, Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap());
+    for (value, tick) in [(0.0, "0"), (12.5, "12.5"), (2e-9, "2\u{d7}10\u{207b}\u{2079}")] {
+        // Rounding is no difference.
+        with_values(
+            &mut summary,
+            |row, value| row.margin_recomputed = Some(value),
+            |share| value * (1.0 + 1e-13 * share),
+        );
+        let svg = heat_map(&robot, &summary, MapQuantity::MarginRecomputed, Sheet::SCREEN).unwrap();
+        let colors: std::collections::BTreeSet<&str> = svg
+            .split("<rect")
+            .skip(2)
+            .filter_map(|cell| cell.split("fill=").nth(1))
+            .map(|c| &c[1..8])
+            .collect();
+        assert_eq!(colors.len(), 1, "{value}: {colors:?}");
+        // The last texts are those of the colour bar.
+        let texts = texts(&svg);
+        let bar = texts.iter().position(|text| text.starts_with("margin [N]")).unwrap();
+        let numbers = |all: &[&str]| all.iter().filter(|text| **text == tick).count();
+        assert!(numbers(&texts) >= 1, "{value}: {texts:?}");
+        assert!(!texts[bar..].contains(&"0.4") && !texts[bar..].contains(&"\u{2212}0.4"), "{texts:?}");
+    }
 }
 
 #[test]

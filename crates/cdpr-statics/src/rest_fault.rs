@@ -19,6 +19,8 @@ pub enum RestFault {
         height: f64,
         /// Height of the ground [m].
         ground: f64,
+        /// The limit of a tension that is passed, too: another height of the ground alone is then no remedy.
+        also: Option<OutOfLimits>,
     },
     /// A cable is paid out so far that it is a loop.
     Loop {
@@ -79,30 +81,37 @@ impl RestFault {
     }
 }
 
+/// A tension and the limit that it passes.
+fn beyond(OutOfLimits { cable, end, tension, limit, value }: &OutOfLimits) -> String {
+    let side = if matches!(limit, Limit::Min) { "below" } else { "above" };
+    let end = if end.is_anchor() { "" } else { " at its exit point" };
+    format!("cable {} at {} N{end}, {side} its limit of {value} N", cable + 1, visible(*tension, 3))
+}
+
 impl fmt::Display for RestFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let number = |cable: &usize| cable + 1;
         match self {
-            Self::Limit(OutOfLimits { cable, end, tension, limit, value }) => {
-                let side = if matches!(limit, Limit::Min) { "below" } else { "above" };
-                let end = if end.is_anchor() { "" } else { " at its exit point" };
-                let tension = visible(*tension, 3);
-                write!(
-                    f,
-                    "taut solutions exist only with cable {} at {tension} N{end}, {side} its limit of \
-                     {value} N; change the pose, the load or tension_limits",
-                    number(cable)
-                )
-            }
-            Self::BelowGround { cable, is_anchor, height, ground } => {
+            Self::Limit(passed) => write!(
+                f,
+                "taut solutions exist only with {}; change the pose, the load or tension_limits",
+                beyond(passed)
+            ),
+            Self::BelowGround { cable, is_anchor, height, ground, also } => {
                 let what = if *is_anchor { "the anchor point" } else { "the lowest point" };
-                let height = visible(*height, 3);
+                let (cable, height) = (number(cable), visible(*height, 3));
                 write!(
                     f,
-                    "only with {what} of cable {} at z = {height} m, below the ground at {ground} m; change \
-                     the pose or ground_z",
-                    number(cable)
-                )
+                    "only with {what} of cable {cable} at z = {height} m, below the ground at {ground} m"
+                )?;
+                match also {
+                    None => write!(f, "; change the pose or ground_z"),
+                    Some(passed) => write!(
+                        f,
+                        ", and with {}; change the pose, or both ground_z and tension_limits",
+                        beyond(passed)
+                    ),
+                }
             }
             Self::Loop { cable, chords, most } => write!(
                 f,

@@ -279,3 +279,60 @@ fn tally(case: &Value) -> Tally {
     }
     tally
 }
+
+/// A head of 60 kg below four far winches, symmetric in x and y.
+fn arena_head(least: f64) -> Robot {
+    let cable = |x: f64, y: f64| {
+        let [a, b] = [0.2 * x.signum(), 0.15 * y.signum()];
+        format!(r#"{{"exit_point": [{x}, {y}, 35], "anchor_point": [{a}, {b}, 0.2]}}"#)
+    };
+    let cables = [(-60.0, -40.0), (60.0, -40.0), (60.0, 40.0), (-60.0, 40.0)].map(|(x, y)| cable(x, y));
+    let text = format!(
+        r#"{{"format": "cdpr-robot/1", "name": "head", "gravity": 9.81, "ground_z": 0,
+        "platform": {{"mass": 60, "center_of_mass": [0, 0, -0.3]}},
+        "cable": {{"section": 1.045e-5, "youngs_modulus": 1e11, "linear_density": 0.09525}},
+        "pulley": {{"radius": 0.15, "axis": [0, 0, 1]}}, "lead": 35,
+        "tension_limits": {{"min": {least}, "max": 5000}}, "cables": [{}]}}"#,
+        cables.join(", ")
+    );
+    Robot::from_json(&text).unwrap()
+}
+
+#[test]
+fn mirror_poses_of_a_symmetric_robot_have_one_verdict() {
+    let robot = arena_head(100.0);
+    let at = |x: f64, y: f64| {
+        free_solutions(&robot, WantedPose::at(&Pose::at(x, y, 10.0)).free(&FREE), &Load::none())
+    };
+    for (x, y) in [(40.0, 20.0), (40.0, 15.0), (25.0, 15.0)] {
+        let verdict = |found: Result<FreeSolutions, StaticsError>| match found {
+            Ok(found) => found.first.tensions.iter().map(|tension| format!("{tension:.3}")).collect(),
+            Err(StaticsError::NoRest { nearest, .. }) => {
+                let words = nearest.to_string();
+                // Only the cable is another one.
+                vec![words.split(' ').filter(|word| !matches!(*word, "1" | "2" | "3" | "4")).collect()]
+            }
+            Err(other) => vec![other.kind().to_owned()],
+        };
+        let images = [(x, y), (-x, y), (x, -y), (-x, -y)].map(|(x, y)| {
+            let mut said: Vec<String> = verdict(at(x, y));
+            said.sort();
+            said
+        });
+        assert!(images.iter().all(|image| *image == images[0]), "{images:#?}");
+    }
+}
+
+#[test]
+fn a_rest_below_the_ground_says_which_tension_is_out_of_its_limits_too() {
+    // Cable 1 reaches z = -13 m with 71 N.
+    let at = Pose::at(40.0, 17.0, 10.0);
+    let refused = |least: f64| {
+        let robot = arena_head(least);
+        free_solutions(&robot, WantedPose::at(&at).free(&FREE), &Load::none()).unwrap_err().to_string()
+    };
+    let (both, one) = (refused(100.0), refused(20.0));
+    assert!(both.contains("below the ground at 0 m, and with cable 1 at 7"), "{both}");
+    assert!(both.contains(" N, below its limit of 100 N; change the pose, or both ground_z and"), "{both}");
+    assert!(one.ends_with("below the ground at 0 m; change the pose or ground_z"), "{one}");
+}

@@ -63,8 +63,8 @@ pub use analysis::sensitivity::{Agreement, SensitivitySummary, measure};
 pub use analysis::summary::Summary;
 pub use analysis::surface::{SurfaceResult, SurfaceSummary, SurfaceValues, compute_surface};
 pub use analysis::values::ValueSummary;
-pub use analysis::verdict::PartVerdict;
 pub use analysis::verdict::recommendation::{Basis, MATTERS, Recommendation, RecommendedIndex, Standing};
+pub use analysis::verdict::{PartVerdict, listing_three};
 pub use cdpr_sensitivity::{
     Analyser, Analysis, BestFit, Delta, Dependence, Estimate, Evidence, Family, Finding, InputAnalysis,
     LeadingInputs, LevelMean, Limit as OutputLimit, LimitFailures, Pawn, Truncation, is_resolved,
@@ -81,7 +81,7 @@ pub use file::study_file::{
     AxisSpec, CorrelationSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec, StudyFile,
     SurfaceSpec, json_schema,
 };
-pub use file::template::{TEMPLATE_NOTES, template, template_cost, write_template};
+pub use file::template::{has_tolerance, template, template_cost, template_notes, write_template};
 pub use file::weather::{WeatherQuantity, WeatherSpec, WindProfileSpec};
 pub use fs::files::{open_cable, open_robot, open_robot_in_any_unit};
 pub use fs::finite::is_not_finite;

@@ -30,3 +30,16 @@ fn columns_that_are_a_vector_have_an_index_for_each_input() {
     assert!(error.contains("vector is z: expected a column of numbers"), "{error}");
     assert!(of(&["y"], &["y"]).is_err() && of(&[], &[]).unwrap().vector.is_none());
 }
+
+#[test]
+fn a_folder_with_several_tables_says_how_one_of_them_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["all.csv", "modulus_mass.csv"] {
+        std::fs::write(folder.path().join(name), "x,y\n1,2\n3,4\n").unwrap();
+    }
+    let error = open_table(folder.path(), None).unwrap_err().to_string();
+    let first = folder.path().join("all.csv");
+    let expected = format!("one of them by its file, such as {}: all, modulus_mass", first.display());
+    assert!(error.ends_with(&expected), "{error}");
+    assert!(open_table(&first, None).is_ok());
+}

@@ -223,21 +223,23 @@ fn command() -> clap::Command {
 /// its threads: call it once in a process, as its whole work.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let typed: Vec<OsString> = arguments.into_iter().collect();
-    let parsed = command()
-        .try_get_matches_from(slips::joined(typed.iter().cloned()))
-        .and_then(|found| Arguments::from_arg_matches(&found));
+    let program = command();
+    let found = program.clone().try_get_matches_from(slips::joined(typed.iter().cloned()));
+    let parsed = found.and_then(|found| Ok((Arguments::from_arg_matches(&found)?, found)));
     match parsed {
-        Ok(arguments) => {
+        Ok((arguments, found)) => {
             said::say(arguments.said());
             let clock = Instant::now();
-            let ending = prepare().and_then(|()| carry_out(arguments.command));
+            let ending = arguments::check_together(&program, &found)
+                .and_then(|()| prepare())
+                .and_then(|()| carry_out(arguments.command));
             said::detail(format_args!("{:.3} s", clock.elapsed().as_secs_f64()));
             output::exit_code(ending)
         }
         Err(error) => {
             let given: Vec<String> =
                 typed.iter().skip(1).map(|argument| argument.to_string_lossy().into_owned()).collect();
-            output::refused(&slips::hinted(error, &command(), &given))
+            output::refused(&slips::hinted(error, &program, &given))
         }
     }
 }

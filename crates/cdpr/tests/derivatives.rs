@@ -240,3 +240,13 @@ fn derivatives_of_a_robot_with_four_cables_need_and_take_free_coordinates() {
     let refused = unwrapped(cdpr(&arguments).stderr);
     assert!(refused.contains("expected `--free` with as many names"), "{refused}");
 }
+
+#[test]
+fn shares_that_are_rounded_to_zero_are_not_named() {
+    let call = ["derivatives", "caroca", "--pose", "0,0,1.75", "--payload", "50", "--uncertainty"];
+    let said = |model: &str| unwrapped(cdpr(&[&call[..], &[model]].concat()).stdout).replace('\n', " ");
+    let one = said("mass=9,b=1e-9");
+    assert!(one.contains("Shares of the variance: mass 100.0 %."), "{one}");
+    let several = said("a=0.002,b=0.005");
+    assert!(several.contains(" %, ") && !several.contains(" 0.0 %"), "{several}");
+}

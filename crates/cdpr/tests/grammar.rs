@@ -41,6 +41,37 @@ fn the_standard_input_is_a_file_like_any_other() {
     assert_eq!(refused.status.code(), Some(1), "{}", unwrapped(refused.stderr));
     let refused = unwrapped(fed("mass: 1", &["robot", "check", "-"]).stderr);
     assert!(refused.starts_with("error: -"), "{refused}");
+    // It is one file.
+    let refused = fed(&robot, &["inverse", "-", "--poses", "-"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let said = unwrapped(refused.stderr);
+    assert!(
+        said.starts_with("error: ROBOT and --poses: - is the standard input, which can be one"),
+        "{said}"
+    );
+}
+
+#[test]
+fn an_answer_goes_into_no_file_whose_ending_is_that_of_another_format() {
+    let folder = TempDir::new().unwrap();
+    let call = |format: &str, name: &str| {
+        cdpr_in(folder.path(), &["inverse", "caroca", "--pose", "0,0,1.75", "--format", format, "-o", name])
+    };
+    for (format, name) in [("json", "a.csv"), ("csv", "a.json"), ("text", "a.csv")] {
+        let refused = call(format, name);
+        assert_eq!(refused.status.code(), Some(2), "{format} {name}");
+        let said = unwrapped(refused.stderr);
+        assert!(said.starts_with(&format!("error: --out {name}: the answer is ")), "{said}");
+        assert!(said.contains(": expected a name that ends in ."), "{said}");
+        assert!(!folder.path().join(name).exists(), "{name}");
+    }
+    for (format, name) in [("json", "b.json"), ("csv", "b.csv"), ("csv", "b.txt"), ("json", "b")] {
+        assert_eq!(call(format, name).status.code(), Some(0), "{format} {name}");
+    }
+    // A folder of results has any name.
+    let map =
+        ["workspace", "caroca", "--region=0:0.5:2,0:0.5:2,1.75", "--format", "json", "--out", "map.csv"];
+    assert_eq!(cdpr_in(folder.path(), &map).status.code(), Some(0));
 }
 
 #[cfg(unix)]

@@ -173,3 +173,30 @@ fn a_band_without_a_peak_says_so_and_has_no_empty_table() {
     let shaken = unwrapped(cdpr(&[&arguments[..], &["--below", "6"]].concat()).stdout);
     assert!(shaken.contains("largest peaks") && !shaken.contains("no peak"), "{shaken}");
 }
+
+#[test]
+fn a_peak_of_cables_without_drag_is_no_answer_and_drag_makes_it_one() {
+    let file = data_path("../docs/how-to/planner/stadium.json");
+    let call = ["response", &file, "--pose", "0,0,12", "--below", "2", "--number", "9"];
+    let said = unwrapped(cdpr(&call).stdout).replace('\n', " ");
+    assert!(
+        said.starts_with("Stadium camera at (0, 0, 12) m: no bound is known without drag; at rest a force"),
+        "{said}"
+    );
+    assert!(said.contains("The largest peak, ") && said.contains("is far above a real one"), "{said}");
+    let damped = unwrapped(cdpr(&[&call[..], &["--with", "drag=0.5"]].concat()).stdout);
+    assert!(damped.contains("a force shakes the point by up to "), "{damped}");
+    // A table says it apart.
+    let folder = TempDir::new().unwrap();
+    let poses = folder.path().join("poses.csv");
+    std::fs::write(&poses, "x_m,y_m,z_m\n0,0,12\n").unwrap();
+    let table = ["response", &file, "--poses", poses.to_str().unwrap(), "--below", "2", "--number", "9"];
+    for (arguments, is_noted) in [
+        (table.to_vec(), true),
+        ([&call[..], &["--format", "csv"]].concat(), true),
+        ([&table[..], &["--with", "drag=0.5"]].concat(), false),
+    ] {
+        let noted = unwrapped(cdpr(&arguments).stderr);
+        assert_eq!(noted.contains("note: nothing damps cables across their stretch"), is_noted, "{noted}");
+    }
+}

@@ -1,7 +1,7 @@
 //! A robot of 10 cm with 10 g on thin cables: its numbers are not hidden; and what an answer says of robots
 //! whose cables cross, are few, or have no room for a load.
 
-use crate::common::{cdpr, cdpr_in, data, json_file, text, unwrapped};
+use crate::common::{answered, cdpr, cdpr_in, data, data_path, json_file, text, unwrapped};
 use serde_json::{Value, json};
 use std::path::Path;
 use tempfile::TempDir;
@@ -171,4 +171,56 @@ fn a_certificate_that_is_not_tried_says_why() {
     let printed = printed.split_whitespace().collect::<Vec<_>>().join(" ");
     assert_eq!(output.status.code(), Some(3), "{printed}");
     assert!(printed.contains("no box is tried") && !printed.contains("times itself"), "{printed}");
+}
+
+#[test]
+fn a_point_mass_is_said_to_have_no_rotation() {
+    let robot = data_path("../docs/how-to/planner/stadium.json");
+    let at = ["--pose", "5,3,12"];
+    let said =
+        |command: &str, more: &[&str]| unwrapped(cdpr(&[&[command, &robot], &at[..], more].concat()).stdout);
+    let stiffness = said("stiffness", &[]);
+    for absent in ["rotation", "N/rad", "its symmetric part"] {
+        assert!(!stiffness.contains(absent), "{absent}: {stiffness}");
+    }
+    // Three rows of three numbers.
+    let matrix: Vec<_> = stiffness.lines().skip_while(|line| !line.starts_with("K [N/m]:")).skip(1).collect();
+    assert!(matrix.len() == 3 && matrix.iter().all(|row| row.split_whitespace().count() == 3), "{matrix:?}");
+    let held = answered(cdpr(&["inverse", &robot, "--pose", "5,3,12", "--format", "json"]));
+    let lengths: Value = serde_json::from_str(&held).unwrap();
+    let lengths: Vec<String> =
+        lengths["lengths"].as_array().unwrap().iter().map(ToString::to_string).collect();
+    let direct = said("direct", &["--lengths", &lengths.join(",")]);
+    assert!(direct.contains(" rests at (") && !direct.contains("roll"), "{direct}");
+    let shown = unwrapped(cdpr(&["robot", "show", &robot]).stdout);
+    assert!(shown.contains("3 free motions, point mass of 40 kg") && !shown.contains("inertia"), "{shown}");
+    let derived = said("derivatives", &["--payload", "5", "--details"]);
+    assert!(
+        derived.contains(" b1.x ") && !derived.contains(" a1.x ") && !derived.contains("cog"),
+        "{derived}"
+    );
+    let folder = TempDir::new().unwrap();
+    let figure = folder.path().join("motion.svg");
+    let events = data_path("events/payload-dropped.json");
+    let drop = ["--payload", "60", "--events", &events, "--until", "0.1"];
+    let moved = said("simulate", &[&drop[..], &["--figure", figure.to_str().unwrap()]].concat());
+    assert!(moved.contains(" moves up to ") && !moved.contains(" deg"), "{moved}");
+    assert!(moved.contains(" J, the greatest kinetic energy."), "{moved}");
+    let svg = std::fs::read_to_string(&figure).unwrap();
+    assert!(svg.contains("from the rest [mm]") && !svg.contains("rotation"), "{svg}");
+}
+
+#[test]
+fn a_stiffness_is_printed_twice_only_where_a_printed_digit_differs() {
+    let said = |robot: &str, more: &[&str]| {
+        unwrapped(cdpr(&[&["stiffness", robot, "--pose", "0.5,0.3,1.75"], more].concat()).stdout)
+    };
+    // A moment of constant components has a skew part.
+    assert!(said("caroca", &["--moment", "50,0,20"]).contains("its symmetric part"));
+    for robot in ["caroca", "cogiro", "ipanema-3"] {
+        let said = said(robot, &[]);
+        let (whole, symmetric) = said.split_once("its symmetric part").unwrap_or((&said, ""));
+        let last = |text: &str| text.lines().rev().take(6).map(str::to_owned).collect::<Vec<_>>();
+        assert_ne!(last(whole), last(symmetric), "{said}");
+    }
 }

@@ -111,10 +111,7 @@ fn a_move_says_when_a_tension_passes_its_limit() {
     let said = text(planned.stdout).replace('\n', " ");
     // The way is symmetric, and cables 3 and 4 are, too: the camera speeds up and slows down alike.
     assert!(said.contains("cables 3, 4: tension up to 548.22"), "{said}");
-    assert!(
-        said.contains("That of cable 3 is at 1.4") && said.contains("That of cable 4 is at 4.5"),
-        "{said}"
-    );
+    assert!(said.contains("This is in cable 3 at 1.4") && said.contains(", in cable 4 at 4.5"), "{said}");
 }
 
 #[test]

@@ -229,5 +229,6 @@ fn a_campaign_is_planned_read_and_fitted_with_the_answer_first() {
     let calibrate = "calibrate fit caroca measured.csv --with folds=0,starts=1 --out fitted --uncertainty";
     let fitted = run(&format!("{calibrate} {model} {exact}"), &[]);
     assert!(fitted.lines().next().unwrap().contains("CAROCA"), "{fitted}");
+    assert!(fitted.contains("From the measurements alone, "), "{fitted}");
     assert!(fitted.contains(" are identifiable.") && fitted.contains("chi-square"), "{fitted}");
 }

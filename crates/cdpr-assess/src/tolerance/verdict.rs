@@ -2,7 +2,7 @@
 
 use crate::tolerance::{Limited, Reached, ToleranceBudget};
 use cdpr_robot::{listing, rounded, significant};
-use cdpr_study::little_explained;
+use cdpr_study::{listing_three, little_explained};
 
 impl ToleranceBudget {
     /// Which tolerances to tighten, and what independent robots say of it: one sentence each.
@@ -59,13 +59,13 @@ impl ToleranceBudget {
         let limit = self.limit_mm;
         if !self.priced {
             let before = format!("For {wanted} % below {limit} mm, tighten the width of ");
-            return listing(&before, tightened, ".");
+            return listing_three(&before, tightened, ".");
         }
         let cost = significant(self.cost[1] - self.cost[0], 4);
         let before = format!("For {wanted} % below {limit} mm spend {cost}: ");
         let mut steps = Vec::from_iter(calibrated.iter().map(|name| format!("do {name}")));
         let tighten = tightened.iter().enumerate();
         steps.extend(tighten.map(|(k, of)| if k == 0 { format!("tighten {of}") } else { of.clone() }));
-        listing(&before, &steps, ".")
+        listing_three(&before, &steps, ".")
     }
 }

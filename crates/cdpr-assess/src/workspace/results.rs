@@ -125,3 +125,45 @@ impl Dominant {
         (variance > 0.0).then(|| Self { input, share: part / variance, std: variance.sqrt() })
     }
 }
+
+/// Kind and reason of a failure in the words of a map: its positions may be next to the axis of a pulley.
+pub(crate) fn failure(error: &StaticsError) -> (&'static str, String) {
+    match error {
+        StaticsError::Cable { index, source } if error.kind() == OF_CABLE => {
+            // So the library of cables calls what is no distance at which a cable can leave its pulley.
+            let reason = source.to_string();
+            let of_end = ["end.x is ", "end is "].iter().find_map(|name| reason.strip_prefix(name));
+            let Some(rest) = of_end else { return (OF_CABLE, error.to_string()) };
+            let distance = "the distance of its anchor point from the swivel axis is";
+            (AT_PULLEY, format!("cable {}: {distance} {rest}", index + 1))
+        }
+        error => (error.kind(), error.to_string()),
+    }
+}
+
+/// The kind of a failure of a cable, and its name in a map.
+const OF_CABLE: &str = "cable";
+const AT_PULLEY: &str = "cable_at_its_pulley";
+
+#[cfg(test)]
+mod tests {
+    use super::failure;
+    use cdpr_robot::{Pose, Robot};
+    use cdpr_statics::{Load, inverse};
+
+    #[test]
+    fn a_position_next_to_the_axis_of_a_pulley_is_named_so() {
+        let robot = Robot::from_library("ipanema-3").unwrap();
+        let cable = &robot.cables[0];
+        let below = cable.exit_point - cable.anchor_point;
+        let error = inverse(&robot, &Pose::at(below.x, below.y, 1.0), &Load::none()).unwrap_err();
+        let (kind, reason) = failure(&error);
+        assert_eq!(kind, "cable_at_its_pulley", "{error}");
+        assert!(
+            reason.starts_with("cable 1: the distance of its anchor point from the swivel axis is 0"),
+            "{reason}"
+        );
+        let error = inverse(&robot, &Pose::at(0.0, 0.0, 99.0), &Load::none()).unwrap_err();
+        assert_eq!(failure(&error), (error.kind(), error.to_string()));
+    }
+}

@@ -6,7 +6,7 @@ use crate::safety::factored::Situation;
 use crate::safety::winds::Winds;
 use crate::workspace::breaks::AfterBreaks;
 use crate::workspace::question::Workspace;
-use crate::workspace::results::{BEYOND_LIMITS, Dominant, HELD, WorkspacePose};
+use crate::workspace::results::{BEYOND_LIMITS, Dominant, HELD, WorkspacePose, failure};
 use cdpr_statics::limits::in_words;
 use cdpr_statics::{Load, StaticsError};
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -153,15 +153,19 @@ impl WorkspaceRow {
         let tilt = pose.tilt.as_deref().and_then(|tilt| tilt.as_ref().ok()?.least());
         let shaken = pose.shaken.as_deref();
         let shaken_by = shaken.and_then(|shaken| shaken.as_ref().ok());
+        let said = |error| {
+            let (kind, reason) = failure(error);
+            (kind, Some(reason))
+        };
         let (status, reason) = match &pose.outcome {
             Ok(held) if held.is_within_limits() => (HELD, overflow.then(|| OVERFLOW.to_owned())),
             Ok(held) => (BEYOND_LIMITS, Some(in_words(&held.out_of_limits).join("; "))),
-            Err(error) => (error.kind(), Some(error.to_string())),
+            Err(error) => said(error),
         };
         let again = recomputed.map(|recomputed| match recomputed {
             Ok(within) if within.out_of_limits.is_empty() => (HELD, None),
             Ok(beyond) => (BEYOND_LIMITS, Some(in_words(&beyond.out_of_limits).join("; "))),
-            Err(error) => (error.kind(), Some(error.to_string())),
+            Err(error) => said(error),
         });
         let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
         Self {

@@ -10,7 +10,7 @@
 //! with anchor points a_i and exit points b_i, the span of Eq. (1).
 
 use crate::error::ExchangeError;
-use crate::write::scene::unplaced;
+use crate::write::scene::{FROM_POINTS, unplaced};
 use cdpr_robot::{Pose, Robot, Vector3, significant};
 use cdpr_statics::{Load, inverse};
 
@@ -28,7 +28,8 @@ impl Anchors {
     pub(crate) fn new(robot: &Robot, pose: &Pose) -> Result<Self, ExchangeError> {
         for (i, cable) in robot.cables.iter().enumerate() {
             let no_place = |field: &str, value: String| {
-                Err(ExchangeError::NoPlace { field: format!("cables[{i}].{field}"), value })
+                let field = format!("cables[{i}].{field}");
+                Err(ExchangeError::NoPlace { field, value, expected: FROM_POINTS })
             };
             if let Some(pulley) = cable.pulley.filter(|pulley| pulley.radius > 0.0) {
                 return no_place("pulley", format!("a pulley of radius {} m", pulley.radius));

@@ -7,7 +7,11 @@ use std::fmt::Write;
 
 pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeError> {
     if robot.platform.point {
-        return Err(ExchangeError::NoPlace { field: "platform.point".to_owned(), value: "true".to_owned() });
+        return Err(ExchangeError::NoPlace {
+            field: "platform.point".to_owned(),
+            value: "true".to_owned(),
+            expected: "a body; klipper, rrf and table take point masses",
+        });
     }
     let mut notes = unplaced(robot);
     if robot.ground_z.is_some() {

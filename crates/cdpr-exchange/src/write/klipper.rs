@@ -23,6 +23,7 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
         return Err(ExchangeError::NoPlace {
             field: "cables".to_owned(),
             value: format!("a list of {count}"),
+            expected: "3 to 26 cables",
         });
     }
     let Anchors { points, mut notes } = Anchors::new(robot, pose)?;

@@ -24,10 +24,12 @@ const NAMES: [&str; 4] = ["tl", "tr", "bl", "br"];
 
 pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeError> {
     let no_place = |field: &str, value: &str| {
-        Err(ExchangeError::NoPlace { field: field.to_owned(), value: value.to_owned() })
+        let expected = "a planar robot with four cables, from the corners of a frame with sides of 500 to \
+                        5000 mm";
+        Err(ExchangeError::NoPlace { field: field.to_owned(), value: value.to_owned(), expected })
     };
     let Some(plane) = robot.plane else {
-        return no_place("plane", "not given, so that the robot is not planar");
+        return no_place("plane", "not given");
     };
     if robot.cables.len() != NAMES.len() {
         return no_place("cables", &format!("a list of {}", robot.cables.len()));
@@ -45,7 +47,7 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     };
     let corners: Vec<Vector2<f64>> = placed.iter().map(frame).collect();
     let Some(center) = center(&corners) else {
-        return no_place("cables", "not the corners of a frame with sides of 500 to 5000 mm");
+        return no_place("cables", "not at the corners of such a frame");
     };
     let mut text = "kinematics:\n  MaslowKinematics:\n".to_owned();
     for (name, (corner, i)) in NAMES.into_iter().zip(corners.iter().zip(order)) {

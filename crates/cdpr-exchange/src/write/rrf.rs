@@ -30,7 +30,8 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     let count = robot.cables.len();
     if !(LEAST..=LETTERS.len()).contains(&count) {
         let value = format!("a list of {count}");
-        return Err(ExchangeError::NoPlace { field: "cables".to_owned(), value });
+        let expected = "3 to 5 cables";
+        return Err(ExchangeError::NoPlace { field: "cables".to_owned(), value, expected });
     }
     check_upright(robot)?;
     check_one_stiffness(robot)?;
@@ -87,6 +88,7 @@ fn check_one_stiffness(robot: &Robot) -> Result<(), ExchangeError> {
         Some(i) => Err(ExchangeError::NoPlace {
             field: format!("cables[{i}].cable"),
             value: format!("EA = {} N, and {} N in cables[0]", stiffness(i), first),
+            expected: "one EA of all cables",
         }),
     }
 }

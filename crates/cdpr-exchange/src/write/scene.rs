@@ -24,9 +24,14 @@ pub(crate) fn inertia(robot: &Robot, notes: &mut Vec<String>) -> Matrix3<f64> {
     })
 }
 
+/// What formats without pulleys and leads take.
+pub(crate) const FROM_POINTS: &str =
+    "cables that come from points; caspr takes pulleys, table pulleys and leads";
+
 /// Refuses what only cables between points in space can be written without.
 pub(crate) fn check_plain(robot: &Robot) -> Result<(), ExchangeError> {
-    let no_place = |field: String, value: String| Err(ExchangeError::NoPlace { field, value });
+    let no_place =
+        |field: String, value: String, expected| Err(ExchangeError::NoPlace { field, value, expected });
     if !robot.freedoms().are_all() {
         return Err(ExchangeError::HeldMotions);
     }
@@ -35,13 +40,15 @@ pub(crate) fn check_plain(robot: &Robot) -> Result<(), ExchangeError> {
             return no_place(
                 format!("cables[{i}].pulley"),
                 format!("a pulley of radius {} m", pulley.radius),
+                FROM_POINTS,
             );
         }
         if cable.lead > 0.0 {
-            return no_place(format!("cables[{i}].lead"), format!("{} m", cable.lead));
+            return no_place(format!("cables[{i}].lead"), format!("{} m", cable.lead), FROM_POINTS);
         }
         if cable.properties.law.is_some() {
-            return no_place(format!("cables[{i}].cable.law"), "an elastic law".to_owned());
+            let expected = "cables with one modulus; caspr takes the EA at the pose";
+            return no_place(format!("cables[{i}].cable.law"), "an elastic law".to_owned(), expected);
         }
     }
     Ok(())
@@ -52,7 +59,11 @@ pub(crate) fn check_upright(robot: &Robot) -> Result<(), ExchangeError> {
     let down = robot.gravity.vector();
     if down.xy().norm() > 1e-9 * down.norm() {
         let value = format!("{:?}", down.as_slice());
-        return Err(ExchangeError::NoPlace { field: "gravity".to_owned(), value });
+        return Err(ExchangeError::NoPlace {
+            field: "gravity".to_owned(),
+            value,
+            expected: "gravity along -z",
+        });
     }
     Ok(())
 }

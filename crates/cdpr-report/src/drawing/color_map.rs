@@ -4,12 +4,15 @@ use crate::drawing::axis::{Axis, extent};
 use crate::drawing::decades::Decades;
 use crate::drawing::style::{self, Area, DrawingError, GREY, MARGIN, Pen, X_AXIS, px};
 use crate::error::ReportError;
+use crate::text::digits;
 use plotters::prelude::*;
 use std::ops::Range;
 
 /// Width of the colours of a colour bar [px].
 const COLOR_BAR: f64 = 26.0;
 const COLORS: usize = 128;
+/// Values that differ by a smaller share of their size are equal.
+const EVEN: f64 = 1e-9;
 /// Least distance between hatching lines along an axis [px].
 const HATCH: f64 = 8.0;
 
@@ -67,6 +70,8 @@ pub(crate) struct ColorMap {
     pub(crate) greatest: f64,
     /// Whether colours are by powers of ten.
     pub(crate) by_decades: bool,
+    /// Whether all values are equal, up to rounding: one colour and one tick.
+    is_even: bool,
     /// Axis of the colour bar.
     color_axis: Axis,
 }
@@ -138,8 +143,13 @@ impl ColorMap {
         if least > greatest {
             return Err(ReportError::Empty { what: "no point of the grid has a value" });
         }
-        let color_axis = Axis::numbers(least..greatest, 9, label);
-        Ok(Self { cells, values, least, greatest, by_decades: false, color_axis })
+        let is_even = greatest - least <= EVEN * least.abs().max(greatest.abs());
+        let mut color_axis = Axis::numbers(least..greatest, 9, label);
+        if is_even {
+            let middle = 0.5 * (least + greatest);
+            color_axis = Axis::given(color_axis.range, vec![(middle, digits(middle, 4))], label);
+        }
+        Ok(Self { cells, values, least, greatest, by_decades: false, is_even, color_axis })
     }
 
     /// The same with colours by powers of ten, if the values range over them.
@@ -164,7 +174,7 @@ impl ColorMap {
         C: plotters::coord::CoordTranslate<From = (f64, f64)>,
     {
         self.cells.draw(plot, |cell| self.values[cell].map(|value| self.color(value)))?;
-        for (level, _) in &self.color_axis.ticks {
+        for (level, _) in self.levels() {
             for segment in self.contour(*level) {
                 Pen::solid(self.line_color(*level), 0.8).draw(plot, segment.to_vec())?;
             }
@@ -187,7 +197,7 @@ impl ColorMap {
             let color = self.color(0.5 * (value(k) + value(k + 1)));
             chart.plotting_area().draw(&Rectangle::new([(0.0, value(k)), (1.0, high)], color.filled()))?;
         }
-        for (level, _) in &axis.ticks {
+        for (level, _) in self.levels() {
             Pen::solid(self.line_color(*level), 0.8)
                 .draw(chart.plotting_area(), vec![(0.0, *level), (1.0, *level)])?;
         }
@@ -202,8 +212,16 @@ impl ColorMap {
             .draw()
     }
 
-    /// Position of a value on the colour bar, 0 to 1.
+    /// Levels of the contour lines with their texts; values that are equal have none.
+    fn levels(&self) -> &[(f64, String)] {
+        if self.is_even { &[] } else { &self.color_axis.ticks }
+    }
+
+    /// Position of a value on the colour bar, 0 to 1; that of its middle where all values are equal.
     fn position(&self, value: f64) -> f64 {
+        if self.is_even {
+            return 0.5;
+        }
         let range = &self.color_axis.range;
         ((value - range.start) / (range.end - range.start)).clamp(0.0, 1.0)
     }

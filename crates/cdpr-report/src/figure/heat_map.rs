@@ -140,8 +140,7 @@ impl MapQuantity {
             Self::GreatestTension | Self::GreatestTensionRecomputed => {
                 ("greatest tension", "greatest tension", "N")
             }
-            Self::PayloadRecomputed => ("greatest payload, tensions recomputed", "payload", "kg"),
-            Self::PayloadKept => ("greatest payload, lengths kept", "payload", "kg"),
+            Self::PayloadRecomputed | Self::PayloadKept => ("greatest payload", "payload", "kg"),
             Self::MarginRecomputed => ("distance of the tensions from their limits", "margin", "N"),
             Self::NearestCables => ("distance of the nearest two cables", "distance", "mm"),
             Self::NearestToPlatform => ("distance of cables and platform", "distance", "mm"),
@@ -226,7 +225,10 @@ fn values(
     }
     let hatched = |index: usize| !quantity.is_held(rows[index]);
     let held = (0..rows.len()).filter(|index| !hatched(*index)).count();
-    let borne = if summary.is_loaded() { format!(", {}", quantity.under_load()) } else { String::new() };
+    // A payload is borne in one way or the other without a load, too.
+    let is_payload = matches!(quantity, MapQuantity::PayloadKept | MapQuantity::PayloadRecomputed);
+    let is_borne = summary.is_loaded() || is_payload;
+    let borne = if is_borne { format!(", {}", quantity.under_load()) } else { String::new() };
     lines.insert(
         0,
         format!(

@@ -79,6 +79,15 @@ pub(crate) fn subject(output: Output) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
+/// A sentence with as many names as a line has room for, and the number of the others; three names, if there
+/// are as many, whatever their length: the number of the others says less.
+pub fn listing_three<T: AsRef<str>>(before: &str, names: &[T], after: &str) -> String {
+    let (first, others) = names.split_at(names.len().min(3));
+    let first = first.iter().map(AsRef::as_ref).collect::<Vec<_>>().join(", ");
+    let rest = others.iter().map(|name| name.as_ref().to_owned());
+    listing(before, &[first].into_iter().chain(rest).collect::<Vec<_>>(), after)
+}
+
 /// How many observations failed, by kind; `None` for none.
 pub(crate) fn of_failed(failed: &BTreeMap<String, usize>, observations: usize) -> Option<String> {
     let count: usize = failed.values().sum();
@@ -117,7 +126,7 @@ impl Recommendation {
                 None => ("Matter by the polynomial model", "Below"),
             };
             let none = ["none"];
-            sentences.push(listing(
+            sentences.push(listing_three(
                 &format!("{matters} (above {percent} % of the variance): "),
                 if matter.is_empty() { &none } else { &matter },
                 ".",
@@ -138,7 +147,7 @@ impl Recommendation {
             let leading: Vec<&str> =
                 self.inputs.iter().take(3).filter(leads).map(|of| of.input.as_str()).collect();
             let leading = if leading.is_empty() { vec!["none"] } else { leading };
-            sentences.push(listing("Leading, without bounds: ", &leading, "."));
+            sentences.push(listing_three("Leading, without bounds: ", &leading, "."));
             sentences.extend(self.missed_by_ranks());
         }
         let little = little_explained(self.explained);
@@ -193,5 +202,22 @@ impl Recommendation {
             }
             (None, _) => "not resolved".to_owned(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::listing_three;
+
+    #[test]
+    fn up_to_three_names_are_all_there_and_of_more_as_many_as_a_line_has_room_for() {
+        let before = "Certain to matter (above 1 % of the variance): ";
+        let name = |names: &[&str]| listing_three(before, names, ".");
+        assert_eq!(name(&["mass"]), format!("{before}mass."));
+        let three = ["mass", "linear_density", "youngs_modulus"];
+        assert_eq!(name(&three), format!("{before}mass, linear_density, youngs_modulus."));
+        assert_eq!(name(&["a", "b", "c", "d"]), format!("{before}a, b, c, d."));
+        let more = ["mass", "linear_density", "youngs_modulus", "a1.x", "a2.x"];
+        assert_eq!(name(&more), format!("{before}mass, linear_density, youngs_modulus and 2 more."));
     }
 }

@@ -1,5 +1,6 @@
 //! The first study of a user's own robot: a file that runs as it is, and whose numbers the user replaces.
 
+mod notes;
 mod tolerances;
 
 use crate::error::StudyError;
@@ -8,40 +9,10 @@ use crate::fs::files::named_file;
 use cdpr_robot::library::ROBOTS;
 use cdpr_robot::{Coordinate, Parameter, Plane, Pose, Robot, Vector3, rounded};
 use cdpr_statics::{Load, WantedPose, deflection};
+pub use notes::template_notes;
 use std::path::Path;
+pub use tolerances::has_tolerance;
 use tolerances::{Tolerances, two_digits};
-
-/// What the fields of a study file mean, for people; the format itself has no comments.
-pub const TEMPLATE_NOTES: &str = "\
-The study runs as it is. Replace by what you know of your robot:
-  payload          mass added to the platform, whose effect is the deflection
-                   [kg]; force, moment [N, N m] come with it
-  error_models     law of each parameter's deviation from the robot file, in SI
-                   units
-    mass           mass of the platform [kg]
-    linear_density, youngs_modulus     of all cables [kg/m], [Pa]
-    a, b, cog, dt  anchor points, exit points, centre of mass [m], tension
-                   set-points [N]
-    r, lead, tilt  of pulleys: radii, leads [m], tilts of axes [rad]; lengths
-                   are absolute: no lead if winches are referenced at a pose
-    gravity        components of a vector of gravity [m/s\u{b2}]; the entry of a
-                   parameter, such as a3.x, takes precedence over that of its
-                   group
-    law            uniform {min, max}, normal {mean, std}, truncated_normal,
-                   triangular {min, mode, max}, beta
-    steps          optional: {nearest: {step: 0.001}} rounds values to steps of
-                   1 mm
-  samplings        all parameters vary at once: pose (position [m]; quaternion
-                   [w, x, y, z] or rpy_deg) or poses (a list or a grid), error
-                   model, observations; free: coordinates of the pose that are
-                   found, for a robot with fewer cables than free motions;
-                   lengths: those that all robots have, instead of a pose's
-  surfaces         two parameters vary over a grid, all others are as in the
-                   robot file
-  replicates       scrambled samplings behind the intervals of signed effects
-  sensitivity      all measures of sensitivity; without it the study is faster
-  seed             the same seed gives the same numbers
-All fields: docs/schemas/cdpr-study-1.schema.json. Then: cdpr study run FILE";
 
 /// How many observations a template makes: few enough for any robot, and for Sobol' indices with intervals.
 /// With free coordinates each that the scalar models have to search for takes thousands of times as long, and
@@ -70,7 +41,7 @@ const DERIVATIVE_POINTS: usize = 256;
 
 /// How many observations each part of the template makes, for people.
 pub fn template_cost(robot: &Robot) -> String {
-    let inputs = Parameter::of(robot).len();
+    let inputs = Parameter::of(robot).iter().filter(|parameter| has_tolerance(robot, parameter)).count();
     let Size { observations, replicates, has_sensitivity, axis } = Size::of(robot);
     let part = |count: usize, wanted: bool, part: &str| {
         if wanted { format!("\n  {count:>6}  {part}") } else { String::new() }
@@ -378,6 +349,25 @@ mod tests {
             assert_eq!(study.robot, robot);
             assert_eq!(study.file.sensitivity.is_some(), robot.is_fully_actuated());
         }
+    }
+
+    #[test]
+    fn a_point_mass_has_no_tolerances_of_offsets_that_its_format_does_not_know() {
+        let text = include_str!("../../../../docs/how-to/planner/stadium.json");
+        let robot = Robot::from_json(text).unwrap();
+        let study = template(&robot, "stadium.json", None, None, &[]).unwrap();
+        assert!(study.contains("\"b\": { \"law\"") && !study.contains("\"a\": {"), "{study}");
+        assert!(!study.contains("\"cog\": {"), "{study}");
+        let notes = template_notes(&robot);
+        assert!(notes.contains("    b, dt ") && !notes.contains("cog"), "{notes}");
+        // Four cables: three scalars, twelve coordinates of exit points, four offsets.
+        let cost = template_cost(&robot);
+        assert!(cost.contains(&(SALTELLI_BLOCKS * (3 + 12 + 4 + 2)).to_string()), "{cost}");
+        // Lengths are absolute where there are leads, and that is said of the output that has them.
+        let absolute =
+            |robot: &Robot| template_notes(robot).contains("with position the lengths are absolute");
+        assert!(!absolute(&robot) && !absolute(&caroca()));
+        assert!(absolute(&Robot::from_library("ipanema-3").unwrap()));
     }
 
     #[test]

@@ -65,7 +65,10 @@ fn in_folder(folder: &Path, name: Option<&str>) -> Result<PathBuf, StudyError> {
         }
         (None, [only]) => Ok(only.clone()),
         (None, []) => Err(invalid("tables", "an empty list", "a folder with tables of observations")),
-        (None, _) => Err(invalid("table", "one of several", &format!("the name of one: {names}"))),
+        (None, [first, ..]) => {
+            let expected = format!("one of them by its file, such as {}: {names}", first.display());
+            Err(invalid("table", "one of several in a folder", &expected))
+        }
     }
 }
 

@@ -219,7 +219,7 @@ impl Found {
         Self {
             position: equilibrium.pose.position.into(),
             rotation: rows(&equilibrium.pose),
-            place: exact_place(&equilibrium.pose),
+            place: exact_place(robot, &equilibrium.pose),
             pose: equilibrium.pose,
             cable_forces: forces(equilibrium),
             tensions: equilibrium.tensions(),
@@ -297,11 +297,14 @@ pub(crate) fn tension_range(tensions: &[f64]) -> String {
     if least == greatest { format!("{least} N") } else { format!("{least} to {greatest} N") }
 }
 
-/// Position and angles of a pose, to a micrometre.
-pub(crate) fn exact_place(pose: &Pose) -> String {
+/// Position and angles of a pose, to a micrometre. A point mass has no angles.
+pub(crate) fn exact_place(robot: &Robot, pose: &Pose) -> String {
     let (roll, pitch, yaw) = pose.rotation.euler_angles();
     let angles = [roll, pitch, yaw].map(f64::to_degrees);
     let position = vector(pose.position.as_slice(), 6);
+    if robot.platform.point {
+        return format!("{position} m");
+    }
     format!("{position} m with (roll, pitch, yaw) = {} degrees", vector(&angles, 4))
 }
 

@@ -38,14 +38,11 @@ impl Loops {
         if self == Self::Refused && chords > LONGEST {
             return Some(RestFault::Loop { cable, chords, most: LONGEST });
         }
-        if let Some(fault) = below_ground(robot, lengths, equilibrium) {
-            return Some(fault);
-        }
         let all = out_of_limits(robot, lengths, &[equilibrium]).into_iter();
         let passed = all.filter(|one| matches!(one.limit, Limit::Min | Limit::Max));
         let beyond = |one: &OutOfLimits| (one.tension / one.value).ln().abs();
         let worst = passed.max_by(|one, other| beyond(one).total_cmp(&beyond(other)));
-        worst.map(RestFault::Limit)
+        below_ground(robot, lengths, equilibrium, worst).or(worst.map(RestFault::Limit))
     }
 }
 
@@ -81,8 +78,14 @@ fn heights(robot: &Robot, lengths: &[f64], equilibrium: &Equilibrium, i: usize) 
     Some([anchor, lowest])
 }
 
-/// The point that is farthest below the ground. A cable is not where its exit point is lower, in a pit.
-fn below_ground(robot: &Robot, lengths: &[f64], equilibrium: &Equilibrium) -> Option<RestFault> {
+/// The point that is farthest below the ground, with a limit that is passed `also`. A cable is not below
+/// where its exit point is lower, in a pit.
+fn below_ground(
+    robot: &Robot,
+    lengths: &[f64],
+    equilibrium: &Equilibrium,
+    also: Option<OutOfLimits>,
+) -> Option<RestFault> {
     let ground = robot.ground_z?;
     let rounding = 1e-9 * lengths.iter().copied().fold(ground.abs(), f64::max);
     let mut deepest: Option<(f64, RestFault)> = None;
@@ -92,7 +95,7 @@ fn below_ground(robot: &Robot, lengths: &[f64], equilibrium: &Equilibrium) -> Op
         for (is_anchor, height, least) in [(true, anchor, ground), (false, lowest, ground.min(exit))] {
             let depth = least - height;
             if depth > rounding && deepest.as_ref().is_none_or(|(most, _)| depth > *most) {
-                deepest = Some((depth, RestFault::BelowGround { cable, is_anchor, height, ground }));
+                deepest = Some((depth, RestFault::BelowGround { cable, is_anchor, height, ground, also }));
             }
         }
     }

@@ -52,7 +52,8 @@ impl Tolerances {
         let parameters = Parameter::of(robot);
         let is_there = |(group, half): &(&str, f64)| {
             // Cables without weight have none that could vary.
-            *half > 0.0 && parameters.iter().any(|parameter| parameter.group() == *group)
+            let is_of = |one: &&Parameter| one.group() == *group && has_tolerance(robot, one);
+            *half > 0.0 && parameters.iter().find(is_of).is_some()
         };
         let of_points = of_points.map(|(group, half)| (group, share * half));
         let all = of_values.into_iter().chain(of_points).filter(is_there);
@@ -109,6 +110,12 @@ impl Tolerances {
         };
         self.halves.iter().map(entry).collect::<Vec<_>>().join(",\n")
     }
+}
+
+/// Whether a template has a tolerance of this parameter. A point mass has no offsets of cables and of the
+/// centre of mass: the format of robots does not know them.
+pub fn has_tolerance(robot: &Robot, parameter: &Parameter) -> bool {
+    !(robot.platform.point && matches!(parameter.group(), "a" | "cog"))
 }
 
 /// A sign that looks random and is always the same: the last step of SplitMix64 (Steele, Lea, Flood, 2014).

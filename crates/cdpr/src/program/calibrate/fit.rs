@@ -217,8 +217,8 @@ fn print(summary: &CalibrationSummary) {
     } else if summary.is_unlikely() {
         sentences.insert(0, format!("The measurements do not fit {robot} within their noise."));
     }
-    let unknowns = counted(unknowns, "unknown");
-    sentences.push(format!("{identifiable} of {unknowns} of {robot} are identifiable."));
+    let known = all().filter(|(_, of)| of.std.is_some()).count();
+    sentences.push(of_identifiable(&robot, [identifiable, known, unknowns]));
     sentences.push(format!(
         "The {rows} {have} a chi-square of {} for {} degrees of freedom.",
         significant(summary.chi_square, 4),
@@ -263,6 +263,21 @@ fn about_apart(summary: &CalibrationSummary, RowApart { line, share, others_fit 
          pose, or mistyped? Leave it out, or let it count less: --with loss=huber.",
         100.0 * share
     )
+}
+
+/// How many unknowns the measurements alone identify, how many are known with what was known before, of all.
+fn of_identifiable(robot: &str, [identifiable, known, all]: [usize; 3]) -> String {
+    let of = format!("of {} of {robot}", counted(all, "unknown"));
+    let alone = match identifiable {
+        0 => format!("none {of} is"),
+        count => format!("{count} {of} are"),
+    };
+    let before = match known {
+        known if known <= identifiable => String::new(),
+        known if known == all => " With what was known before, all are estimated.".to_owned(),
+        known => format!(" With what was known before, {known} are estimated."),
+    };
+    format!("From the measurements alone, {alone} identifiable.{before}")
 }
 
 /// Three digits of a length.
@@ -328,6 +343,26 @@ fn print_details(summary: &CalibrationSummary, found: &Fit) {
         println!(
             "far from the model: line {}, {}: {:.1} standard deviations",
             outlier.line, outlier.column, outlier.standard_deviations
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::of_identifiable;
+
+    #[test]
+    fn what_measurements_alone_do_not_identify_may_be_known_with_what_was_before() {
+        let said = |counts: [usize; 3]| of_identifiable("Arena", counts);
+        let (begin, before) = ("From the measurements alone,", "With what was known before,");
+        assert_eq!(said([3, 3, 3]), format!("{begin} 3 of 3 unknowns of Arena are identifiable."));
+        assert_eq!(
+            said([0, 17, 17]),
+            format!("{begin} none of 17 unknowns of Arena is identifiable. {before} all are estimated.")
+        );
+        assert_eq!(
+            said([2, 4, 5]),
+            format!("{begin} 2 of 5 unknowns of Arena are identifiable. {before} 4 are estimated.")
         );
     }
 }

@@ -19,7 +19,7 @@ use cdpr_dynamics::{DynamicsError, FrequencyDerivatives};
 use cdpr_robot::{Parameter, Robot, visible};
 use cdpr_statics::derivatives::OneSided;
 use cdpr_statics::{Derivatives, Load, Observer, StaticsError, WantedPose, derivatives};
-use cdpr_study::explained_deflection;
+use cdpr_study::{explained_deflection, has_tolerance};
 use serde::Serialize;
 
 /// The robot, its poses, and what is uncertain.
@@ -95,6 +95,9 @@ struct Slopes {
     deflection_magnitude_mm: f64,
     #[serde(skip)]
     inputs: Vec<Parameter>,
+    /// Whether the text has each parameter: a point mass has no offsets of cables and of the centre of mass.
+    #[serde(skip)]
+    shown: Vec<bool>,
     parameters: Vec<String>,
     /// Derivative of |dp| [mm].
     magnitude_mm: Vec<f64>,
@@ -223,6 +226,7 @@ impl Slopes {
             }),
             deflection_magnitude_mm: 1e3 * found.deflection.magnitude(),
             inputs: parameters.clone(),
+            shown: parameters.iter().map(|parameter| has_tolerance(robot, parameter)).collect(),
             parameters: parameters.iter().map(ToString::to_string).collect(),
             magnitude_mm: left.iter().map(|slope| slope.magnitude_mm).collect(),
             deflection_mm: left.iter().map(|slope| slope.deflection_mm).collect(),
@@ -256,7 +260,7 @@ impl Slopes {
             };
             vec![(name, index, slope)]
         };
-        (0..self.parameters.len()).flat_map(of).collect()
+        (0..self.parameters.len()).filter(|index| self.shown[*index]).flat_map(of).collect()
     }
 
     /// The deflection, and the parameters that change it most, each by a unit of the size of its uncertainty.

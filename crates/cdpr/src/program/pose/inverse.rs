@@ -187,7 +187,7 @@ impl Resting {
         Self {
             found_pose: pose_numbers(&equilibrium.pose),
             roll_pitch_yaw_deg: [roll, pitch, yaw].map(f64::to_degrees),
-            place: answer::exact_place(&equilibrium.pose),
+            place: answer::exact_place(robot, &equilibrium.pose),
             lengths: lengths.clone(),
             tensions: tensions.clone(),
             exit_tensions: equilibrium.exit_tensions(robot, lengths),

@@ -8,8 +8,11 @@ use crate::program::arguments::{
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
 use crate::program::pose::at_pose::{Brief, RobotAtPose, Row};
-use crate::program::pose::modes::with_inertia;
-use cdpr_dynamics::{Damping, FrequencyResponse, Modes, PointMotion, ShakenPoint, Wanted, worst_amplitude};
+use crate::program::pose::modes::{OWN, with_inertia};
+use crate::program::said;
+use cdpr_dynamics::{
+    Damping, FrequencyResponse, Mode, Modes, PointMotion, ShakenPoint, Wanted, worst_amplitude,
+};
 use cdpr_report::{Amplitudes, Sheet, amplitudes};
 use cdpr_robot::{Pose, Robot, Vector3, shown, significant};
 use cdpr_statics::{DirectProblem, DirectStart, StaticsError, Unstable, WantedPose, inverse};
@@ -55,11 +58,16 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let Settings { at, figure, .. } = settings;
     let with = With::known(settings.with.as_ref(), &["damping", "drag"])?;
     let damping = with.damping()?.unwrap_or(Damping::USUAL);
-    let is_table = matches!(at.printing.format(), Format::Csv) && at.pose()?.is_some();
+    let pose = at.pose()?;
+    if damping.drag == 0.0 && (pose.is_none() || at.printing.format() != Format::Text) {
+        // The text of an answer says it where the peaks are.
+        said::note(format_args!("{NO_DRAG}"));
+    }
+    let is_table = matches!(at.printing.format(), Format::Csv) && pose.is_some();
     if !is_table && figure.is_none() {
         return at.answer(|robot, pose| settings.solve(robot, pose, damping), Answer::print);
     }
-    let (robot, pose) = (at.robot()?, at.pose()?);
+    let robot = at.robot()?;
     let Some(pose) = pose else {
         return Err(ProgramError::Usage("--figure: expected --pose x,y,z".to_owned()));
     };
@@ -94,11 +102,13 @@ impl Settings {
         let lever = rest.pose.rotation * Vector3::from(self.marker.unwrap_or_default());
         let point = ShakenPoint::new(&response, &lever)?;
         let at = |frequency: &f64| Ok(At::from(&point.at(*frequency)?));
+        let frequencies: Vec<At> = frequencies.iter().map(at).collect::<Result<_, StaticsError>>()?;
         Ok(Answer {
             damping_s: damping.stretch,
             drag_per_s: damping.drag,
             inertia_assumed: matches!(robot, std::borrow::Cow::Owned(_)),
-            frequencies: frequencies.iter().map(at).collect::<Result<_, StaticsError>>()?,
+            is_of_cables: is_of_cables(&frequencies, &natural),
+            frequencies,
             found_pose: self.free.found(&rest.pose),
             out_of_limits: OutOfLimits::all(&robot, &held.lengths, &[&rest]),
         })
@@ -112,6 +122,9 @@ struct Answer {
     drag_per_s: f64,
     /// Whether the inertia of the platform is assumed.
     inertia_assumed: bool,
+    /// Whether the largest amplitude is that of a motion of the cables.
+    #[serde(skip)]
+    is_of_cables: bool,
     /// Without motion first.
     frequencies: Vec<At>,
     /// The pose with its free coordinates as they are found.
@@ -161,6 +174,19 @@ impl At {
     }
 }
 
+/// The largest amplitude.
+fn peak(frequencies: &[At]) -> Option<&At> {
+    frequencies.iter().max_by(|one, other| one.amplitude_m_per_n.total_cmp(&other.amplitude_m_per_n))
+}
+
+/// Whether the natural motion nearest to the largest amplitude is one of the cables.
+fn is_of_cables(frequencies: &[At], natural: &Modes) -> bool {
+    let Some(peak) = peak(frequencies) else { return false };
+    let away = |mode: &&Mode| (mode.frequency - peak.frequency_hz).abs();
+    let nearest = natural.modes.iter().min_by(|one, other| away(one).total_cmp(&away(other)));
+    nearest.is_some_and(|mode| mode.platform_share < OWN)
+}
+
 /// The largest of amplitudes, zero of none.
 fn largest_of(amplitudes: &[f64]) -> f64 {
     amplitudes.iter().copied().fold(0.0, f64::max)
@@ -183,7 +209,13 @@ fn cell(value: f64) -> String {
 impl Answer {
     /// The largest amplitude beyond rest.
     fn peak(&self) -> Option<&At> {
-        self.frequencies.iter().max_by(|one, other| one.amplitude_m_per_n.total_cmp(&other.amplitude_m_per_n))
+        peak(&self.frequencies)
+    }
+
+    /// Whether the largest amplitude is a number that nothing real has: the air damps motions across cables,
+    /// and the model has none.
+    fn is_without_air(&self) -> bool {
+        self.drag_per_s == 0.0 && self.is_of_cables
     }
 
     /// Frequencies whose amplitude no neighbour exceeds, and those without a bound, the largest first.
@@ -211,9 +243,18 @@ impl Answer {
                 NO_BOUND => "without a bound".to_owned(),
                 most => format!("by up to {most} mm/N"),
             };
-            let shaken =
-                format!("{heading}: a force shakes the point {most_of}, at {:.4} Hz", most.frequency_hz);
-            print_sentence(&format!("{shaken}; {at_rest}."));
+            let at = format!("at {:.4} Hz", most.frequency_hz);
+            if self.is_without_air() && most.amplitude_m_per_n.is_finite() {
+                let at_rest = at_rest.replace("it moves it", "a force moves the point");
+                print_sentence(&format!("{heading}: no bound is known without drag; {at_rest}."));
+                print_sentence(&format!(
+                    "The largest peak, {} mm/N {at}, is one of the cables, which nothing damps across their \
+                     stretch: it is far above a real one; --with drag=RATE.",
+                    millimetres(most.amplitude_m_per_n)
+                ));
+            } else {
+                print_sentence(&format!("{heading}: a force shakes the point {most_of}, {at}; {at_rest}."));
+            }
         }
         let peaks = self.peaks();
         let damping =
@@ -229,7 +270,7 @@ impl Answer {
             println!("{damping} The largest peaks:");
             Self::print_peaks(&peaks);
         }
-        if self.drag_per_s == 0.0 {
+        if self.drag_per_s == 0.0 && !self.is_without_air() {
             print_sentence(NO_DRAG);
         }
         OutOfLimits::print(&self.out_of_limits);

@@ -200,8 +200,10 @@ fn figure(robot: &Robot, rest: &Pose, series: &Series, sheet: Sheet) -> Result<S
         label: "tension at the platform [N]".to_owned(),
         curves: (0..robot.cables.len()).map(of_cable).collect(),
     };
-    let quantities =
-        [motion("from the rest [mm]", 0, 1e3), motion("rotation vector [deg]", 3, 180.0 / PI), tensions];
+    // A point mass does not turn.
+    let turn = (!robot.platform.point).then(|| motion("rotation vector [deg]", 3, 180.0 / PI));
+    let quantities: Vec<Quantity> =
+        [motion("from the rest [mm]", 0, 1e3)].into_iter().chain(turn).chain([tensions]).collect();
     let title = format!("Motion of {}", shown(&robot.name));
     let [x, y, z] = <[f64; 3]>::from(rest.position).map(|value| rounded(value, 4));
     let lines = [format!("from rest at ({x}, {y}, {z}) m")];

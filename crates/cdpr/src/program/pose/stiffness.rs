@@ -26,8 +26,9 @@ struct Answer {
     stiffness: [[f64; 6]; 6],
     /// Rows of the symmetric part of K.
     symmetric_part: [[f64; 6]; 6],
+    /// Whether the platform is a point mass: it has no rotations.
     #[serde(skip)]
-    symmetric: bool,
+    is_point: bool,
     /// Eigenvalues of the symmetric part, the softest motion first.
     eigenvalues: Vec<Eigenvalue>,
     least_stiffness: f64,
@@ -87,12 +88,10 @@ impl Row for Answer {
 impl Answer {
     fn new(robot: &Robot, found: &PoseStiffness) -> Self {
         let PoseStiffness { matrix, symmetric_part, stability, lengths, equilibrium } = found;
-        let skew = (matrix - symmetric_part).amax();
         Self {
             stiffness: matrix.transpose().into(),
             symmetric_part: symmetric_part.transpose().into(),
-            // To rounding: K has entries in N/m to N m.
-            symmetric: skew <= 1e-9 * matrix.amax(),
+            is_point: robot.platform.point,
             eigenvalues: stability
                 .modes()
                 .iter()
@@ -115,35 +114,46 @@ impl Answer {
         let stable = answer::stability_word(self.stable);
         let least = significant(self.least_stiffness, 5);
         print_sentence(&format!("{heading} is {stable}; its softest motion has {least} N/m."));
-        let mut rows = table(&["eigenvalue [N/m]", "translation [m/m]", "rotation [rad/m]"]);
+        let names = ["eigenvalue [N/m]", "translation [m/m]", "rotation [rad/m]"];
+        let shown = if self.is_point { 2 } else { 3 };
+        let mut rows = table(&names[..shown]);
         let decimals = decimals_of(self.eigenvalues.iter().map(|of| of.stiffness), 1);
         for Eigenvalue { stiffness, translation, rotation } in &self.eigenvalues {
             let words = |vector: &[f64; 3]| answer::vector(vector, 4);
-            rows.add_row([decimal(*stiffness, decimals), words(translation), words(rotation)]);
+            let cells = [decimal(*stiffness, decimals), words(translation), words(rotation)];
+            rows.add_row(cells.into_iter().take(shown));
         }
         println!("{rows}");
-        println!("rotations times \u{2113} = {} m", visible(self.characteristic_length, 4));
+        if !self.is_point {
+            println!("rotations times \u{2113} = {} m", visible(self.characteristic_length, 4));
+        }
         Neutral::print(&self.neutral);
         OutOfLimits::print(&self.out_of_limits);
-        println!("K in (dp, d\u{3c6}) [N/m, N/rad, N, N m/rad]:");
-        let print = |matrix: &[[f64; 6]; 6]| {
-            // Forces and moments have blocks of their own, which may differ by far.
-            let of_block = |k: usize| {
-                let rows = matrix.iter().skip(3 * (k / 2)).take(3);
-                decimals_of(rows.flat_map(|row| row.iter().skip(3 * (k % 2)).take(3).copied()), 1).min(8)
-            };
-            let decimals = [0, 1, 2, 3].map(of_block);
-            for (i, row) in matrix.iter().enumerate() {
-                let entry = |(k, entry): (usize, &f64)| {
-                    format!("{:>13}", decimal(*entry, decimals[2 * (i / 3) + k / 3]))
-                };
-                println!("{}", row.iter().enumerate().map(entry).collect::<String>());
-            }
-        };
-        print(&self.stiffness);
-        if !self.symmetric {
+        let head = if self.is_point { "K [N/m]:" } else { "K in (dp, d\u{3c6}) [N/m, N/rad, N, N m/rad]:" };
+        let [whole, symmetric] = [&self.stiffness, &self.symmetric_part].map(|matrix| self.lines(matrix));
+        println!("{head}");
+        whole.iter().for_each(|line| println!("{line}"));
+        // The other part may be small beside the digits that are printed.
+        if whole != symmetric {
             println!("its symmetric part, which has these eigenvalues:");
-            print(&self.symmetric_part);
+            symmetric.iter().for_each(|line| println!("{line}"));
         }
+    }
+
+    /// The rows of a matrix, those of translations alone of a point mass.
+    fn lines(&self, matrix: &[[f64; 6]; 6]) -> Vec<String> {
+        // Forces and moments have blocks of their own, which may differ by far.
+        let of_block = |k: usize| {
+            let rows = matrix.iter().skip(3 * (k / 2)).take(3);
+            decimals_of(rows.flat_map(|row| row.iter().skip(3 * (k % 2)).take(3).copied()), 1).min(8)
+        };
+        let decimals = [0, 1, 2, 3].map(of_block);
+        let size = if self.is_point { 3 } else { 6 };
+        let line = |(i, row): (usize, &[f64; 6])| {
+            let entry =
+                |(k, entry): (usize, &f64)| format!("{:>13}", decimal(*entry, decimals[2 * (i / 3) + k / 3]));
+            row.iter().enumerate().take(size).map(entry).collect()
+        };
+        matrix.iter().enumerate().take(size).map(line).collect()
     }
 }

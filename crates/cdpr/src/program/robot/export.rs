@@ -94,8 +94,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
 }
 
 /// What takes a robot with few cables.
-const INSTEAD: &str =
-    "`cdpr inverse --pose POSE --free NAMES` finds the lengths, and `--to caspr` needs none";
+const INSTEAD: &str = "such a robot goes to CASPR alone, `--to caspr`, which needs no lengths; --free is an \
+                       option of `cdpr inverse`, which finds them";
 
 /// Writes lengths and corrections at the positions of a region.
 fn table(settings: &Settings) -> Result<(), ProgramError> {

@@ -29,6 +29,8 @@ struct Shown {
     mass: f64,
     center_of_mass: [f64; 3],
     has_inertia: bool,
+    #[serde(skip)]
+    is_point: bool,
     /// Sides of the boxes around the exit points and the anchor points.
     exit_points: [f64; 3],
     anchor_points: [f64; 3],
@@ -72,6 +74,7 @@ impl Shown {
             mass: robot.platform.mass,
             center_of_mass: robot.platform.center_of_mass.into(),
             has_inertia: robot.platform.inertia.is_some(),
+            is_point: robot.platform.point,
             exit_points: extent(&exit_points(robot)),
             anchor_points: extent(&anchor_points),
             linear_density: range(cables.iter().map(|cable| cable.properties.linear_density)),
@@ -126,16 +129,22 @@ fn print(robot: &Shown) {
         let decimals = decimals_of(sides, 2);
         format!("{} m", sides.map(|side| format!("{side:.decimals$}")).join(" x "))
     };
-    let inertia = if robot.has_inertia { "" } else { ", inertia not known" };
+    let (platform, inertia) = match (robot.is_point, robot.has_inertia) {
+        (true, _) => ("point mass", ""),
+        (false, true) => ("platform", ""),
+        (false, false) => ("platform", ", inertia not known"),
+    };
     print_sentence(&format!(
-        "{}: {}, {} free motions, platform of {} kg{inertia}",
+        "{}: {}, {} free motions, {platform} of {} kg{inertia}",
         shown(&robot.name),
         counted(robot.cables, "cable"),
         robot.free_motions,
         robot.mass
     ));
     println!("exit points in a box of    {}", sides(robot.exit_points));
-    println!("anchor points in a box of  {}", sides(robot.anchor_points));
+    if !robot.is_point {
+        println!("anchor points in a box of  {}", sides(robot.anchor_points));
+    }
     let law = robot
         .law_stiffness
         .map_or_else(String::new, |law| format!(" by youngs_modulus, {} N by the elastic law", words(law)));

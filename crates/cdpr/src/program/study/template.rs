@@ -8,7 +8,7 @@ use crate::program::output::patiently;
 use crate::program::questions;
 use crate::program::said::{Said, is_said};
 use cdpr_robot::{Pose, Rotation3};
-use cdpr_study::{StudyError, TEMPLATE_NOTES, template, template_cost, write_template};
+use cdpr_study::{StudyError, template, template_cost, template_notes, write_template};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -41,7 +41,7 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let robot = questions::open_robot(path)?;
     let text =
         |path: &str| patiently("trying poses", || template(&robot, path, position, *payload, &free.free));
-    let notes = format!("{TEMPLATE_NOTES}\n\n{}", template_cost(&robot));
+    let notes = format!("{}\n\n{}", template_notes(&robot), template_cost(&robot));
     match out {
         Some(out) => {
             if overwrite.is_wanted() && out.is_file() {

@@ -22,6 +22,9 @@ pub(super) struct Uncertainty {
 /// Causes that are named.
 const NAMED: usize = 5;
 
+/// The least share that is not rounded to 0.0 %.
+const LEAST: f64 = 5e-4;
+
 impl Uncertainty {
     pub(super) fn new(model: &ErrorModel, found: &Derivatives) -> Result<Self, StaticsError> {
         let [left, right] =
@@ -37,7 +40,7 @@ impl Uncertainty {
     }
 
     pub(super) fn print(&self, heading: &str, dp: f64) {
-        let named = self.shares.iter().take(NAMED);
+        let named = self.shares.iter().take(NAMED).filter(|(_, share)| **share >= LEAST);
         let named: Vec<_> = named.map(|(name, share)| format!("{name} {:.1} %", 100.0 * share)).collect();
         let (std, named) = (self.std_mm, named.join(", "));
         print_sentence(&format!(
@@ -45,7 +48,9 @@ impl Uncertainty {
             visible(dp, 5),
             visible(std, 5)
         ));
-        print_sentence(&format!("Shares of the variance: {named}."));
+        if !named.is_empty() {
+            print_sentence(&format!("Shares of the variance: {named}."));
+        }
         let little = little_explained(self.explained);
         little.iter().for_each(|little| print_sentence(&format!("{little}: these numbers are rough.")));
     }

@@ -1,5 +1,6 @@
 //! `cdpr path --with seconds=1`: a move along the poses, as set points of the winches.
 
+mod after;
 mod answer;
 
 use crate::program::arguments::{self, UncertaintyArgument, With};
@@ -8,7 +9,8 @@ use crate::program::output::{Ending, patiently, progress};
 use crate::program::pose::at_pose::RobotAtPose;
 use crate::program::pose::modes::with_inertia;
 use crate::program::questions;
-use answer::{After, Answer, Robots};
+use after::After;
+use answer::{Answer, Robots};
 use cdpr_assess::DrawnRobots;
 use cdpr_dynamics::moves::{FeedForward, Move, SetPoint, Shaper, ShaperKind, residual};
 use cdpr_dynamics::simulate::Profile;

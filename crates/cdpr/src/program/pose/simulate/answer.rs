@@ -33,6 +33,9 @@ pub(super) struct Answer {
     /// Whether the motion begins away from the rest.
     #[serde(skip)]
     displaced: bool,
+    /// Whether the platform is a point mass, which does not turn.
+    #[serde(skip)]
+    is_point: bool,
     pub(super) columns: Vec<String>,
 }
 
@@ -137,6 +140,7 @@ impl Answer {
             elements: series.discretizations.iter().map(|of| of.elements).collect(),
             degree: series.discretizations.iter().map(|of| of.degree).collect(),
             steps: series.work.steps,
+            is_point: robot.platform.point,
             displaced: events.iter().any(|event| matches!(event.change, Change::Displace(_))),
             columns: pose
                 .into_iter()
@@ -154,16 +158,19 @@ impl Answer {
     pub(super) fn print(&self, name: &str, rest: &Pose, until: f64) {
         let mm = |metres: f64| significant(1e3 * metres, 3);
         let [x, y, z] = <[f64; 3]>::from(rest.position).map(|value| rounded(value, 4));
-        let turned = significant(rest.rotation.angle().to_degrees(), 3);
+        // What is said of a rotation, which a point mass does not have.
+        let turn = |said: String| if self.is_point { String::new() } else { said };
+        let turned = turn(format!(", turned by {} deg", significant(rest.rotation.angle().to_degrees(), 3)));
+        let rotation = significant(self.greatest_rotation_rad.to_degrees(), 3);
         // After a cut or a winch it rests elsewhere; a displaced platform does not start at its rest.
         let from = if self.displaced { "rest" } else { "start" };
         print_sentence(&format!(
-            "{name} moves up to {} mm and {} deg from its {from}, at {} s.",
+            "{name} moves up to {} mm{} from its {from}, at {} s.",
             mm(self.greatest_distance_m),
-            significant(self.greatest_rotation_rad.to_degrees(), 3),
+            turn(format!(" and {rotation} deg")),
             significant(self.at_s, 3)
         ));
-        print_sentence(&format!("Its {from} is at ({x}, {y}, {z}) m, turned by {turned} deg."));
+        print_sentence(&format!("Its {from} is at ({x}, {y}, {z}) m{turned}."));
         println!(
             "In the last quarter of {until} s it swings by up to {} mm about its mean place.",
             mm(self.swing_m)
@@ -195,14 +202,14 @@ impl Answer {
         }
         let Difference { position_m, rotation_rad, tension_n } = &self.difference;
         println!(
-            "A coarser computation differs by up to {} mm, {} deg and {} N.",
+            "A coarser computation differs by up to {} mm{} and {} N.",
             mm(*position_m),
-            significant(rotation_rad.to_degrees(), 2),
+            turn(format!(", {} deg", significant(rotation_rad.to_degrees(), 2))),
             significant(*tension_n, 2)
         );
         let Energy { drift_j, kinetic_j, lost_j, .. } = self.energy;
         print_sentence(&format!(
-            "{} a cable, {}; energy off by {} J of {} J.",
+            "{} a cable, {}; energy off by {} J of {} J, the greatest kinetic energy.",
             self.elements(),
             counted(self.steps, "step"),
             significant(drift_j, 2),

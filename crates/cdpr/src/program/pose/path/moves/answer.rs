@@ -1,13 +1,14 @@
 //! What is printed of a move.
 
-use crate::program::answer::{OutOfLimits, numbers};
+use crate::program::answer::OutOfLimits;
 use crate::program::arguments::Printing;
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence};
 use crate::program::pose::at_pose::numbered;
+use crate::program::pose::path::moves::after::{After, mm, percent};
 use cdpr_assess::{Compared, ratio_of_best};
 use cdpr_dynamics::DynamicsError;
-use cdpr_dynamics::moves::{Excited, Move, Residual, SetPoint, Shaper};
+use cdpr_dynamics::moves::{Excited, Move, SetPoint};
 use cdpr_robot::{Robot, counted, shown, significant};
 use serde::Serialize;
 
@@ -58,30 +59,6 @@ struct Shaped {
     platform_share: f64,
 }
 
-/// What swings after a move.
-#[derive(Serialize)]
-pub(super) struct After {
-    /// For how long it is watched.
-    watched_s: f64,
-    /// Greatest distance of P from its rest.
-    amplitude_m: f64,
-    /// The same of the move without shaper and feed-forward, and the ratio of both; `null` where the motion
-    /// is below `difference_m`.
-    unshaped_amplitude_m: f64,
-    ratio: Option<f64>,
-    /// Greatest distance from the way, with and without.
-    deviation_m: f64,
-    unshaped_deviation_m: f64,
-    /// Greatest difference to a coarser computation.
-    difference_m: f64,
-    /// Numbers of the cables that lose their tension, from 1, and of those that do without both.
-    slack_cables: Vec<usize>,
-    unshaped_slack_cables: Vec<usize>,
-    /// Whether the move has a shaper.
-    #[serde(skip)]
-    is_shaped: bool,
-}
-
 /// What robots leave that are drawn from the error model.
 #[derive(Serialize)]
 pub(super) struct Robots {
@@ -100,69 +77,6 @@ pub(super) struct Robots {
     /// Greatest amplitude that a robot leaves, with and without.
     worst_amplitude_m: f64,
     worst_unshaped_amplitude_m: f64,
-}
-
-fn mm(metres: f64) -> String {
-    significant(1e3 * metres, 3)
-}
-
-fn percent(ratio: f64) -> String {
-    significant(100.0 * ratio, 3)
-}
-
-impl After {
-    pub(super) fn new(planned: &Move, left: &Residual, without: &Residual, watched_s: f64) -> Self {
-        let difference = left.difference.max(without.difference);
-        // Of a motion below the error of its computation nothing is known but that.
-        let ratio = if left.amplitude > difference { left.amplitude / without.amplitude } else { f64::NAN };
-        let from_one = |of: &Residual| of.slack.iter().map(|i| i + 1).collect();
-        Self {
-            watched_s,
-            amplitude_m: left.amplitude,
-            unshaped_amplitude_m: without.amplitude,
-            ratio: ratio.is_finite().then_some(ratio),
-            deviation_m: left.deviation,
-            unshaped_deviation_m: without.deviation,
-            difference_m: difference,
-            slack_cables: from_one(left),
-            unshaped_slack_cables: from_one(without),
-            is_shaped: planned.shaper != Shaper::default(),
-        }
-    }
-
-    fn print(&self, name: &str) {
-        let ratio = self.ratio.map_or_else(String::new, |ratio| format!(", {} %", percent(ratio)));
-        let below = if self.amplitude_m > self.difference_m {
-            ""
-        } else {
-            ", less than the error of the simulation,"
-        };
-        print_sentence(&format!(
-            "{name}: in {} s after the move P swings by up to {} mm{below}{ratio} of the {} mm without shaper and \
-             feed-forward. \
-             On the way it is up to {} mm off, without both {} mm. A coarser computation differs by up to {} mm.",
-            significant(self.watched_s, 3),
-            mm(self.amplitude_m),
-            mm(self.unshaped_amplitude_m),
-            mm(self.deviation_m),
-            mm(self.unshaped_deviation_m),
-            mm(self.difference_m)
-        ));
-        if self.is_worse() {
-            print_sentence("The shaper makes it worse: take more seconds, fewer modes or none.");
-        }
-        for (slack, when) in [(&self.slack_cables, ""), (&self.unshaped_slack_cables, ", without both")] {
-            if !slack.is_empty() {
-                println!("Cables that lose their tension{when}: {}.", numbers(slack));
-            }
-        }
-    }
-
-    /// Whether P swings more with a shaper, by more than the computation may be off: a linear motion, for
-    /// which it is chosen, does not know slack cables.
-    fn is_worse(&self) -> bool {
-        self.is_shaped && self.amplitude_m > self.unshaped_amplitude_m + self.difference_m
-    }
 }
 
 impl Robots {
@@ -327,8 +241,11 @@ impl Answer {
             significant(self.greatest_exit_tension_n, 4)
         ));
         OutOfLimits::print(&self.out_of_limits);
-        for (one, at) in self.out_of_limits.iter().zip(&self.out_of_limits_at_s) {
-            print_sentence(&format!("That of cable {} is at {} s.", one.cable, significant(*at, 4)));
+        let at =
+            |(one, at): (&OutOfLimits, &f64)| format!("cable {} at {} s", one.cable, significant(*at, 4));
+        let when: Vec<String> = self.out_of_limits.iter().zip(&self.out_of_limits_at_s).map(at).collect();
+        if !when.is_empty() {
+            print_sentence(&format!("This is in {}.", when.join(", in ")));
         }
     }
 }
