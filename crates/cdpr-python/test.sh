@@ -11,11 +11,16 @@ target=${CARGO_TARGET_DIR:-$PWD/target}
 environment=$target/python-tests
 trap 'rm -rf "$environment"' EXIT
 
-cargo build --quiet --bin cdpr
 python3 -m venv --clear "$environment"
+# They come over the network while the program and the wheel are compiled.
+"$environment/bin/pip" install --quiet pytest scipy pandas matplotlib mypy mujoco anywidget SALib "$@" &
+packages=$!
+cargo build --quiet --bin cdpr
 # In the profile of the tests, so that nothing is compiled twice; a wheel is otherwise built as a release.
-"$environment/bin/pip" install --quiet --config-settings=build-args="--profile dev" ./crates/cdpr-python
-"$environment/bin/pip" install --quiet pytest scipy pandas matplotlib mypy mujoco anywidget SALib "$@"
+"$environment/bin/pip" wheel --quiet --no-deps --wheel-dir "$environment/wheel" \
+    --config-settings=build-args="--profile dev" ./crates/cdpr-python
+wait "$packages"
+"$environment/bin/pip" install --quiet "$environment"/wheel/*.whl
 cd crates/cdpr-python
 CDPR=$target/debug/cdpr "$environment/bin/python" -m pytest -q -rs -p no:cacheprovider tests
 "$environment/bin/python" -m mypy.stubtest cdpr --mypy-config-file pyproject.toml \

@@ -8,6 +8,7 @@
 mod conclude;
 mod frame;
 pub(crate) mod friction;
+mod mixing;
 mod offset;
 mod problem;
 mod rows;

@@ -176,6 +176,12 @@ impl Decomposed {
         part
     }
 
+    /// A change along each combination that the data tell, in standard deviations.
+    pub(crate) fn in_deviations(&self, change: &DVector<f64>) -> DVector<f64> {
+        let along = |k: usize| self.values[k] * self.vectors.row(k).transpose().dot(change);
+        DVector::from_vec((0..self.values.len()).filter(|k| self.tells(*k)).map(along).collect())
+    }
+
     /// Length of the full step in standard deviations.
     pub(crate) fn distance(&self) -> f64 {
         let of = |k: &usize| self.tells(*k);

@@ -6,6 +6,7 @@
 //! between its walls.
 
 use crate::error::CalibrationError;
+use crate::fit::mixing::Mixing;
 use crate::fit::problem::Problem;
 use crate::fit::rows::{Look, RowStep, Way, eliminated};
 use crate::model::compare::Compared;
@@ -97,6 +98,7 @@ impl Problem<'_> {
         let (mut state, mut at) = start;
         let mut damping: f64 = 0.0;
         let mut steps = 0;
+        let mut mixing = Mixing::new(state.shared.x.len());
         let mut before = f64::INFINITY;
         loop {
             let decomposed = self.decomposed(&at, &state.shared, Priors::All);
@@ -112,13 +114,22 @@ impl Problem<'_> {
             let allowed = if is_near { at.cost + ROUNDING_OF_COST * (1.0 + at.cost) } else { at.cost };
             let greatest = decomposed.values.max().powi(2);
             let mut accepted = false;
-            while damping < MOST_DAMPING {
+            if let Some(step) = mixing.step(&decomposed)
+                && let Some((next, linearized)) = self.stepped(&state, &at, &step)
+                && linearized.cost <= allowed
+            {
+                (state, at) = (next, linearized);
+                mixing.moved(&step);
+                accepted = true;
+            }
+            while !accepted && damping < MOST_DAMPING {
                 let step = decomposed.step(damping * greatest);
                 if let Some((next, linearized)) = self.stepped(&state, &at, &step)
                     && linearized.cost <= allowed
                 {
                     (state, at) = (next, linearized);
                     damping = if damping > LEAST_DAMPING { 0.1 * damping } else { 0.0 };
+                    mixing.moved(&step);
                     accepted = true;
                     break;
                 }
