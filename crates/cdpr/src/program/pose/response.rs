@@ -59,8 +59,8 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let with = With::known(settings.with.as_ref(), &["damping", "drag"])?;
     let damping = with.damping()?.unwrap_or(Damping::USUAL);
     let pose = at.pose()?;
-    if damping.drag == 0.0 && (pose.is_none() || at.printing.format() != Format::Text) {
-        // The text of an answer says it where the peaks are.
+    if damping.drag == 0.0 && (pose.is_none() || at.printing.format() == Format::Csv) {
+        // The text of an answer says it where the peaks are, and JSON has the drag.
         said::note(format_args!("{NO_DRAG}"));
     }
     let is_table = matches!(at.printing.format(), Format::Csv) && pose.is_some();

@@ -94,8 +94,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
 }
 
 /// What takes a robot with few cables.
-const INSTEAD: &str = "such a robot goes to CASPR alone, `--to caspr`, which needs no lengths; --free is an \
-                       option of `cdpr inverse`, which finds them";
+const INSTEAD: &str = "`cdpr inverse --pose POSE --free NAMES` finds the lengths; of all formats `--to caspr` \
+                       alone takes such a robot, as it needs none";
 
 /// Writes lengths and corrections at the positions of a region.
 fn table(settings: &Settings) -> Result<(), ProgramError> {
