@@ -5,6 +5,7 @@
 mod controlled;
 mod derivatives;
 mod drawn;
+mod energy;
 mod forced;
 mod moves;
 mod pulleys;

@@ -70,19 +70,26 @@ fn platforms_on_pulleys_put_where_they_rest_under_a_load_stay_there_with_it() {
     }
 }
 
-/// Of the robot whose cables stay taut without damping.
+/// Of motions in which the cables stay taut without damping. What is missing is due to the steps: of light
+/// robots it vanishes with a smaller error of them.
 #[test]
 fn without_damping_the_energy_of_a_robot_on_pulleys_stays() {
-    let [(robot, position, _), ..] = on_pulleys();
-    let (lengths, rest) = rest(&robot, position, "");
-    let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
-    let events = [at(0.0, Change::Displace(Vector6::new(0.0, 0.0, -8e-4, 0.0, 0.0, 0.0)))];
-    let discretization = Some(Discretization { elements: 4, degree: 5 });
-    let settings = Settings { tolerance: 1e-9, discretization, ..Settings::until(0.05) };
-    let series = simulate(&problem, &rest, &events, &settings).unwrap();
-    println!("{:.1e} of {:.1e} J", series.energy.drift, series.energy.kinetic);
-    assert!(!series.slack.contains(&true));
-    assert!(series.energy.drift.abs() < 1e-6 * series.energy.kinetic, "{:?}", series.energy);
+    let [ipanema, hrpcables, large, _, cogiro] = on_pulleys();
+    let short = [(hrpcables, [5e-4, 2e-4, -5e-4, 0.0]), (large, [2e-4, 0.0, -1e-4, 2e-4])];
+    let short = short.into_iter().chain([(cogiro, [1e-3, 1e-3, -3e-3, 1e-3])]);
+    let all = short.map(|(case, motion)| (case, motion, 3, 1e-10, 0.02));
+    let first = (ipanema, [0.0, 0.0, -8e-4, 0.0], 4, 1e-9, 0.05);
+    for ((robot, position, _), [x, y, z, turn], elements, tolerance, until) in all.chain([first]) {
+        let (lengths, rest) = rest(&robot, position, "");
+        let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
+        let events = [at(0.0, Change::Displace(Vector6::new(x, y, z, 0.0, turn, 0.0)))];
+        let discretization = Some(Discretization { elements, degree: 5 });
+        let settings = Settings { tolerance, discretization, ..Settings::until(until) };
+        let series = simulate(&problem, &rest, &events, &settings).unwrap();
+        println!("{}: {:.1e} of {:.1e} J", robot.name, series.energy.drift, series.energy.kinetic);
+        assert!(!series.slack.contains(&true), "{}", robot.name);
+        assert!(series.energy.drift.abs() < 1e-6 * series.energy.kinetic, "{:?}", series.energy);
+    }
 }
 
 /// Greatest distance from the sum over natural motions, and greatest motion [m, rad].

@@ -1,11 +1,12 @@
 //! One cable in motion: its unknowns, what moves them, and what it does to the platform.
 
+mod energy;
 mod tangent;
 
 pub(super) use tangent::CableMatrices;
 
 use super::lead::{Lead, Way};
-use super::mesh::{Forces, Material, Mesh, Part, Points, Pull};
+use super::mesh::{Forces, Material, Mesh, Points, Pull};
 use super::winch::Reeling;
 use cdpr_robot::{Matrix3, Vector3};
 
@@ -59,8 +60,6 @@ pub(super) struct Instant {
     /// How the first point moves with the next one, and with the wheel where that swivels by itself.
     turning: Matrix3<f64>,
     swivelling: Option<Vector3<f64>>,
-    /// Velocity of the first point that its mass has not [m/s].
-    massless: Vector3<f64>,
 }
 
 impl Instant {
@@ -139,7 +138,7 @@ impl CableInMotion<'_> {
             _ => None,
         };
         (at.length, at.way) = (length, way);
-        (at.turning, at.swivelling, at.massless) = (Matrix3::zeros(), None, Vector3::zeros());
+        (at.turning, at.swivelling) = (Matrix3::zeros(), None);
         let Points { positions, velocities } = &mut at.points;
         positions.clear();
         velocities.clear();
@@ -150,11 +149,9 @@ impl CableInMotion<'_> {
                 if self.has_next() {
                     (at.turning, at.swivelling) = lead.turning(way, own[0][0]);
                 }
-                at.massless = at.turning * next[1];
-                let mut velocity = way.direction * own[1][0] + at.massless;
+                let mut velocity = way.direction * own[1][0] + at.turning * next[1];
                 if let Some(swivelling) = at.swivelling {
                     velocity += swivelling * own[1][1];
-                    at.massless += (swivelling - way.swivel()) * own[1][1];
                 }
                 [lead.end(way, own[0][0]), velocity]
             }
@@ -273,63 +270,5 @@ impl CableInMotion<'_> {
             accelerations[next..next + 3].copy_from_slice(acceleration.as_slice());
             next += 3;
         }
-    }
-
-    /// Kinetic energy without that of the anchor point's mass [J].
-    pub(super) fn kinetic(&self, at: &Instant, [_, rates]: [&[f64]; 2]) -> f64 {
-        let before_last = at.points.positions.len().saturating_sub(1);
-        let points = at.forces.masses.iter().zip(&at.points.velocities).take(before_last).enumerate();
-        let own = |(k, (mass, velocity)): (usize, (&f64, &Vector3<f64>))| {
-            let massless = if k == 0 { at.massless } else { Vector3::zeros() };
-            mass * (velocity - massless).norm_squared()
-        };
-        let mut twice: f64 = points.map(own).sum();
-        if let (Start::Led(lead), Some(_)) = (&self.start, &self.mesh) {
-            twice += lead.mass(&self.material) * rates[0] * rates[0];
-        }
-        0.5 * twice
-    }
-
-    /// Energy stored by stretch and height [J].
-    pub(super) fn stored(&self, at: &Instant, own: [&[f64]; 2], gravity: &Vector3<f64>) -> f64 {
-        let stretched = self.lengths_of_pulls(at).map(|(length, pull)| length * self.material.energy(pull));
-        let mut stored: f64 = stretched.sum();
-        for (mass, position) in at.forces.masses.iter().zip(&at.points.positions) {
-            stored -= mass * gravity.dot(position);
-        }
-        if let (Start::Led(lead), Some(_)) = (&self.start, &self.mesh) {
-            stored += lead.energy(&self.material, own[0][0], own[1][0])[0];
-        }
-        stored
-    }
-
-    /// Power [W] of the winch, and power lost.
-    pub(super) fn powers(&self, at: &Instant, own: [&[f64]; 2], gravity: &Vector3<f64>) -> [f64; 2] {
-        let Some(exit) = at.forces.pulls.first() else { return [0.0; 2] };
-        let mut lost = 0.0;
-        for (length, pull) in self.lengths_of_pulls(at) {
-            lost += length * pull.viscosity * pull.rate * pull.rate;
-        }
-        let mut leaves = self.material.energy(exit) - exit.tension * exit.stretch;
-        if self.mesh.is_some() {
-            if let Start::Led(lead) = &self.start {
-                lost += lead.energy(&self.material, own[0][0], own[1][0])[1];
-            }
-            let (position, velocity) = (&at.points.positions[0], at.points.velocities[0] - at.massless);
-            leaves += self.material.density * (0.5 * velocity.norm_squared() - gravity.dot(position));
-        }
-        [at.length.1 * leaves, lost]
-    }
-
-    /// The tensions with the unstrained length [m] that each stands for.
-    fn lengths_of_pulls<'s>(&'s self, at: &'s Instant) -> impl Iterator<Item = (f64, &'s Pull)> {
-        let mut pulls = at.forces.pulls.iter();
-        let parts = self.mesh.iter().flat_map(move |mesh| {
-            let of_part =
-                move |part: Part| mesh.rule.pulls.iter().map(move |(weight, _)| weight * part.length);
-            mesh.parts(at.length.0).flat_map(of_part)
-        });
-        let whole = self.mesh.is_none().then_some(2.0 * at.length.0);
-        parts.chain(whole).filter_map(move |length| Some((0.5 * length, pulls.next()?)))
     }
 }

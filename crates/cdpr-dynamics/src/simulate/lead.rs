@@ -316,13 +316,6 @@ impl Turn {
     }
 }
 
-impl Way {
-    /// Unit vector along which a wheel that swivels moves the end.
-    pub(super) fn swivel(&self) -> Vector3<f64> {
-        self.turns[0].along
-    }
-}
-
 impl Bend {
     /// That of a cable which leaves along the line to its next point.
     fn of(guide: &Guide) -> Self {

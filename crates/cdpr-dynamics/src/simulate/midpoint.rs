@@ -94,7 +94,6 @@ impl Midpoint {
         self.work.steps += 1;
         self.work.evaluations += 1;
         let kinetic = system.kinetic(&self.at, &self.stage);
-        system.hurry(&mut self.at, &self.stage);
         let [given, lost] = system.powers(&self.at, &self.stage).map(|power| h * power);
         system.turn(&mut self.state);
         Ok(Spent { given, lost, kinetic })

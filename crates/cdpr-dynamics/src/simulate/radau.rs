@@ -33,7 +33,8 @@ pub(super) trait Linearization {
 }
 
 const S6: f64 = 2.449_489_742_783_178;
-const C: [f64; 3] = [(4.0 - S6) / 10.0, (4.0 + S6) / 10.0, 1.0];
+/// Times of the stages, as shares of the step.
+pub(super) const STAGES: [f64; 3] = [(4.0 - S6) / 10.0, (4.0 + S6) / 10.0, 1.0];
 /// Weights of the stages in an integral over the step.
 pub(super) const WEIGHTS: [f64; 3] = [(16.0 - S6) / 36.0, (16.0 + S6) / 36.0, 1.0 / 9.0];
 const E: [f64; 3] = [(-13.0 - 7.0 * S6) / 3.0, (-13.0 + 7.0 * S6) / 3.0, -1.0 / 3.0];
@@ -249,7 +250,7 @@ impl<S: Equations> Radau<S> {
             for k in 0..3 {
                 state.clear();
                 state.extend(self.state.iter().zip(&z[k]).map(|(y, z)| y + z));
-                let time = self.time + C[k] * h;
+                let time = self.time + STAGES[k] * h;
                 equations.slopes(time, state, &mut self.memories[k], &mut slopes[k]);
             }
             self.work.evaluations += 3;
@@ -305,7 +306,7 @@ impl<S: Equations> Radau<S> {
     fn linearized_at(&mut self, equations: &S, h: f64, stage: &[f64]) -> Newton<S::Linearization> {
         self.is_current = true;
         let state: Vec<f64> = self.state.iter().zip(stage).map(|(y, z)| y + z).collect();
-        Newton { at: equations.linearize(self.time + C[1] * h, &state), factors: None }
+        Newton { at: equations.linearize(self.time + STAGES[1] * h, &state), factors: None }
     }
 
     /// Where the polynomial of the last step leads.
@@ -314,7 +315,7 @@ impl<S: Equations> Radau<S> {
         let Some((last, stages, _)) = &self.last else { return std::array::from_fn(|_| vec![0.0; n]) };
         let share = |k: usize, x: f64| P[k][0] * x + P[k][1] * x * x + P[k][2] * x * x * x;
         std::array::from_fn(|to| {
-            let x = 1.0 + C[to] * h / last;
+            let x = 1.0 + STAGES[to] * h / last;
             let shares: [f64; 3] = std::array::from_fn(|k| share(k, x) - share(k, 1.0));
             (0..n).map(|i| (0..3).map(|k| shares[k] * stages[k][i]).sum()).collect()
         })

@@ -1,7 +1,7 @@
 //! The solution of the equations of motion by the method that serves.
 
 use super::midpoint::{Midpoint, Spent};
-use super::radau::{Radau, Stalled, WEIGHTS, Work};
+use super::radau::{Radau, STAGES, Stalled, WEIGHTS, Work};
 use super::system::{Snapshot, System};
 
 /// First step after a change [s].
@@ -75,7 +75,14 @@ impl<'a> Solver<'a> {
         };
         let step = radau.advance(system, until)?;
         let mut spent = Spent::default();
-        // Snapshots of the stages are those of the last iteration.
+        // Snapshots of the first two stages are those before the last change of Newton's method.
+        let times = STAGES.map(|share| radau.time + (share - 1.0) * step.length);
+        let looks = system.has_power(times[0]) || system.has_power(times[1]);
+        for ((state, at), time) in step.stages.iter().zip(&mut radau.memories).zip(times).take(2) {
+            if looks {
+                system.look(time, state, at);
+            }
+        }
         for ((weight, state), at) in WEIGHTS.iter().zip(&step.stages).zip(&radau.memories) {
             let [given, lost] = system.powers(at, state);
             spent.given += weight * step.length * given;

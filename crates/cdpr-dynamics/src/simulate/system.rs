@@ -195,10 +195,17 @@ impl System<'_> {
         energy
     }
 
+    /// Whether winches move at a time [s], or cables are damped.
+    pub(super) fn has_power(&self, time: f64) -> bool {
+        self.cables.iter().any(|cable| cable.material.damping > 0.0 || cable.length_at(time).1 != 0.0)
+    }
+
     /// Power of winches and forces, and power lost in the cables [W].
     pub(super) fn powers(&self, at: &Snapshot, state: &[f64]) -> [f64; 2] {
         let body = &self.body;
-        let own = body.force().dot(&at.frame.velocity) + body.moment().dot(&at.frame.spin);
+        let v = state.len() / 2;
+        let [velocity, spin] = [v, v + 3].map(|first| Vector3::from_column_slice(&state[first..first + 3]));
+        let own = body.force().dot(&velocity) + body.moment().dot(&spin);
         self.cables.iter().zip(&at.cables).fold([own, 0.0], |[given, lost], (cable, (_, at))| {
             let more = cable.powers(at, self.own(cable, state), &self.gravity);
             [given + more[0], lost + more[1]]
@@ -210,13 +217,6 @@ impl System<'_> {
         let turning = lever.cross(along);
         let way = [along.x, along.y, along.z, turning.x, turning.y, turning.z];
         Vector6::from_fn(|k, _| if self.free[k] { way[k] } else { 0.0 })
-    }
-
-    /// Takes other velocities of the platform over.
-    pub(super) fn hurry(&self, at: &mut Snapshot, state: &[f64]) {
-        let v = state.len() / 2;
-        at.frame.velocity = Vector3::from_column_slice(&state[v..v + 3]);
-        at.frame.spin = Vector3::from_column_slice(&state[v + 3..v + 6]);
     }
 
     /// The derivative of the state by the time.
