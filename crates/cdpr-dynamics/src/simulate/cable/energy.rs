@@ -16,10 +16,10 @@
 //!     + Σ l t·(T c' + τ dT/dε dε/dt b')                                                            (X7)
 //! ```
 //!
-//! with the elastic tension T. At the exit c is the motion of the point, G c_1 of (X4) at the end of a lead; b
-//! is its velocity by the winch, v_0 of (X3), and zero at other points. P tends to the force on the first point
-//! times b, with the energy of the material that comes. Where the tension at the exit takes the place of that
-//! force, the error of the elements is in the balance. With P, what is missing of E is due to the steps alone.
+//! with the elastic tension T. At the exit c is the motion of the point, G c_1 of (X4) at the end of a lead;
+//! b is its velocity by the winch, v_0 of (X3), and zero at other points. P tends to the force on the first
+//! point times b, with the energy of the material that comes. Where the tension at the exit takes the place of
+//! that force, the error of the elements is in the balance. With P, what is missing of E is due to the steps.
 
 use super::{CableInMotion, Instant, Start};
 use crate::simulate::mesh::{Mesh, Part, Points, Pull};
