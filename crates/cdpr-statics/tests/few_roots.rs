@@ -299,31 +299,6 @@ fn arena_head(least: f64) -> Robot {
 }
 
 #[test]
-fn mirror_poses_of_a_symmetric_robot_have_one_verdict() {
-    let robot = arena_head(100.0);
-    let at = |x: f64, y: f64| {
-        free_solutions(&robot, WantedPose::at(&Pose::at(x, y, 10.0)).free(&FREE), &Load::none())
-    };
-    for (x, y) in [(40.0, 20.0), (40.0, 15.0), (25.0, 15.0)] {
-        let verdict = |found: Result<FreeSolutions, StaticsError>| match found {
-            Ok(found) => found.first.tensions.iter().map(|tension| format!("{tension:.3}")).collect(),
-            Err(StaticsError::NoRest { nearest, .. }) => {
-                let words = nearest.to_string();
-                // Only the cable is another one.
-                vec![words.split(' ').filter(|word| !matches!(*word, "1" | "2" | "3" | "4")).collect()]
-            }
-            Err(other) => vec![other.kind().to_owned()],
-        };
-        let images = [(x, y), (-x, y), (x, -y), (-x, -y)].map(|(x, y)| {
-            let mut said: Vec<String> = verdict(at(x, y));
-            said.sort();
-            said
-        });
-        assert!(images.iter().all(|image| *image == images[0]), "{images:#?}");
-    }
-}
-
-#[test]
 fn a_rest_below_the_ground_says_which_tension_is_out_of_its_limits_too() {
     // Cable 1 reaches z = -13 m with 71 N.
     let at = Pose::at(40.0, 17.0, 10.0);

@@ -153,10 +153,6 @@ impl WorkspaceRow {
         let tilt = pose.tilt.as_deref().and_then(|tilt| tilt.as_ref().ok()?.least());
         let shaken = pose.shaken.as_deref();
         let shaken_by = shaken.and_then(|shaken| shaken.as_ref().ok());
-        let said = |error| {
-            let (kind, reason) = failure(error);
-            (kind, Some(reason))
-        };
         let (status, reason) = match &pose.outcome {
             Ok(held) if held.is_within_limits() => (HELD, overflow.then(|| OVERFLOW.to_owned())),
             Ok(held) => (BEYOND_LIMITS, Some(in_words(&held.out_of_limits).join("; "))),
@@ -217,6 +213,12 @@ impl WorkspaceRow {
             ..Self::default()
         }
     }
+}
+
+/// The status of a failure, and why.
+fn said(error: &StaticsError) -> (&'static str, Option<String>) {
+    let (kind, reason) = failure(error);
+    (kind, Some(reason))
 }
 
 /// One figure of a capacity.

@@ -353,8 +353,16 @@ mod tests {
 
     #[test]
     fn a_point_mass_has_no_tolerances_of_offsets_that_its_format_does_not_know() {
-        let text = include_str!("../../../../docs/how-to/planner/stadium.json");
-        let robot = Robot::from_json(text).unwrap();
+        let cable =
+            |[x, y]: [i32; 2]| format!(r#"{{ "exit_point": [{x}, {y}, 30], "anchor_point": [0, 0, 0] }}"#);
+        let cables = [[-50, -35], [50, -35], [50, 35], [-50, 35]].map(cable).join(", ");
+        let text = format!(
+            r#"{{ "format": "cdpr-robot/1", "name": "Stadium camera", "gravity": 9.81,
+                "platform": {{ "mass": 40, "center_of_mass": [0, 0, 0], "point": true }},
+                "cable": {{ "section": 8.0e-5, "youngs_modulus": 3.8e10, "linear_density": 0.078 }},
+                "tension_limits": {{ "min": 100, "max": 8000 }}, "cables": [{cables}] }}"#
+        );
+        let robot = Robot::from_json(&text).unwrap();
         let study = template(&robot, "stadium.json", None, None, &[]).unwrap();
         assert!(study.contains("\"b\": { \"law\"") && !study.contains("\"a\": {"), "{study}");
         assert!(!study.contains("\"cog\": {"), "{study}");

@@ -142,7 +142,7 @@ impl Search<'_> {
             Ok(Nearby::Open) => is_far = true,
             Err(left) => nearest = Some(left),
         }
-        let starts = self.starts(if is_straight { STARTS } else { 0 }, &[[REACH, REACH]]);
+        let starts = (0..if is_straight { STARTS } else { 0 }).map(|start| self.start(start, [REACH, REACH]));
         for root in starts.filter_map(|start| self.straight_root(start)) {
             let (cable, tension) = root.slackest();
             if root.distance > REACH {

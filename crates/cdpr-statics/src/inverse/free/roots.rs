@@ -11,12 +11,13 @@ use crate::out_of_limits::out_of_limits;
 use crate::rest_fault::RestFault;
 use cdpr_cable::LONGEST_TAUT;
 
-/// Starts of the search among cables that sag: the given pose, and points with their four images.
-const STARTS: usize = 1 + 4 * 8;
+/// Starts of the search among cables that sag.
+const STARTS: usize = 32;
 
 /// How far they are from the given angles [rad], and from its position relative to the longest span; every
-/// other point within a fifth of it.
-const REACHES: [[f64; 2]; 2] = [[0.2 * 1.3, 0.2 * 0.4], [1.3, 0.4]];
+/// other start within a fifth of it.
+const REACH: [f64; 2] = [1.3, 0.4];
+const NEAR: [f64; 2] = [0.2 * REACH[0], 0.2 * REACH[1]];
 
 /// Roots of straight cables that are followed, the nearest first.
 const MOST_ROOTS: usize = 24;
@@ -66,8 +67,8 @@ impl<'s, 'a> Roots<'s, 'a> {
         for outcome in outcomes {
             self.add(outcome)?;
         }
-        let search = self.search;
-        for changes in search.starts(STARTS, &REACHES) {
+        for start in 0..STARTS {
+            let changes = self.search.start(start, if start % 2 == 0 { NEAR } else { REACH });
             let chord_forces = self.search.straight_forces(&changes);
             self.starts += 1;
             let outcome = self.search.descend(Unknowns { changes, chord_forces });

@@ -315,52 +315,22 @@ impl<'a> Search<'a> {
         Some((changes, forces, point))
     }
 
-    /// Changes of the free coordinates at `count` starts: none, then points that fill boxes evenly (additive
-    /// recurrence of the generalized golden ratio), `reaches` from their middle in turn [rad, longest spans].
-    ///
-    /// Each point comes with its mirror images in the planes x = 0 and y = 0: of a symmetric robot what is
-    /// found at a pose is found at its mirror images, too.
-    pub(super) fn starts(
-        &self,
-        count: usize,
-        reaches: &'static [[f64; 2]],
-    ) -> impl Iterator<Item = Vec<f64>> {
+    /// Changes of the free coordinates at start number `index`: none, then points that fill a box evenly
+    /// (additive recurrence of the generalized golden ratio), `reach` from its middle [rad, longest spans].
+    pub(super) fn start(&self, index: usize, reach: [f64; 2]) -> Vec<f64> {
         let dimension = self.free.len() as i32;
         let mut golden = 1.5_f64;
         for _ in 0..50 {
             golden = (1.0 + golden).powf(1.0 / f64::from(dimension + 1));
         }
-        let share = move |k: usize, axis: usize| {
-            2.0 * (0.5 + k as f64 * golden.powi(-(axis as i32) - 1)).fract() - 1.0
-        };
-        let images = self.images();
-        let start = move |index: usize| {
-            let Some(index) = index.checked_sub(1) else { return vec![0.0; self.free.len()] };
-            let (k, image) = (1 + index / images.len(), &images[index % images.len()]);
-            let reach =
-                |coordinate: &Coordinate| reaches[k % reaches.len()][usize::from(!coordinate.is_angle())];
-            let each = self.free.iter().zip(image).enumerate();
-            each.map(|(axis, (coordinate, sign))| sign * reach(coordinate) * share(k, axis)).collect()
-        };
-        (0..count).map(start)
-    }
-
-    /// Signs of the free coordinates in the mirror images of a pose in the planes x = 0, y = 0 and both;
-    /// those of the pose itself are first.
-    fn images(&self) -> Vec<Vec<f64>> {
-        use Coordinate::{Pitch, Roll, X, Y, Yaw};
-        let flipped = [[X, Pitch, Yaw], [Y, Roll, Yaw]];
-        let mut images: Vec<Vec<f64>> = Vec::new();
-        for planes in [&[][..], &flipped[..1], &flipped[1..], &flipped[..]] {
-            let sign = |coordinate: &Coordinate| -> f64 {
-                planes.iter().map(|plane| if plane.contains(coordinate) { -1.0 } else { 1.0 }).product()
-            };
-            let image = self.free.iter().map(sign).collect();
-            if !images.contains(&image) {
-                images.push(image);
+        let share = |axis: usize| {
+            if index == 0 {
+                return 0.0;
             }
-        }
-        images
+            2.0 * (0.5 + index as f64 * golden.powi(-(axis as i32) - 1)).fract() - 1.0
+        };
+        let reach = |coordinate: &Coordinate| reach[usize::from(!coordinate.is_angle())];
+        self.free.iter().enumerate().map(|(axis, coordinate)| reach(coordinate) * share(axis)).collect()
     }
 
     /// What an attempt leaves of the balance.

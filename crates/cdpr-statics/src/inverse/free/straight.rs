@@ -28,9 +28,8 @@ pub(super) struct StraightRoot {
     is_neutral: bool,
 }
 
-/// Starts of the search, the given pose and points of which a third are in each box of [`REACHES`], with
-/// their four images.
-pub(super) const STRAIGHT_STARTS: usize = 1 + 4 * 37;
+/// Starts of the search, a third of them in each box of [`REACHES`].
+pub(super) const STRAIGHT_STARTS: usize = 150;
 
 /// How far starts are from the given angles [rad], and from its position relative to the longest span: near,
 /// as far as platforms usually tilt, and all around.
@@ -60,8 +59,8 @@ impl Search<'_> {
     /// Different roots of straight cables, the nearest to the given pose first.
     pub(super) fn straight_roots(&self) -> Vec<StraightRoot> {
         let mut roots: Vec<StraightRoot> = Vec::new();
-        for start in self.starts(STRAIGHT_STARTS, &REACHES) {
-            let Some(root) = self.straight_root(start) else { continue };
+        for start in 0..STRAIGHT_STARTS {
+            let Some(root) = self.straight_root(self.start(start, REACHES[start % 3])) else { continue };
             if !roots.iter().any(|known| self.are_same(known, &root)) {
                 roots.push(root);
             }
