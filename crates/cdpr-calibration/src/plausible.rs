@@ -125,7 +125,9 @@ impl PlacedRows<'_> {
     /// Refuses positions in m that stand for mm, and the other way.
     fn check_unit(&self, misfit: f64) -> Result<(), CalibrationError> {
         for (factor, expected) in [(1e3, "1000 times the values"), (1e-3, "the values divided by 1000")] {
-            if misfit > FAR * self.size && self.mean_misfit(ORDER, [factor; 3]) < LEFT * misfit {
+            // Of positions in another frame, too, those divided by 1000 are nearer to the robot.
+            let left = self.mean_misfit(ORDER, [factor; 3]);
+            if misfit > FAR * self.size && left < (LEFT * misfit).min(2.0 * SEEN * self.size) {
                 let [first, _, last] = Axis::ALL.map(|axis| Quantity::Position(axis).to_string());
                 let expected =
                     format!("{expected}: lengths and positions would then fit. Are m and mm mixed up?");

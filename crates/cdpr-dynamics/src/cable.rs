@@ -95,6 +95,8 @@ impl<const D: usize> Part<D> {
 }
 
 /// The motions of a cable: those in its plane and those across it, which a wheel with a tilted axis couples.
+// Each is moved once, where it is made.
+#[allow(clippy::large_enum_variant)]
 pub(crate) enum Motions {
     Apart { in_plane: Part<2>, across: Part<1> },
     Together(Part<3>),

@@ -254,10 +254,16 @@ fn cables_whose_anchor_points_are_exchanged_are_questioned() {
     };
     // Where cables then touch.
     let touching = exchanged(0, 4);
-    assert!(touching.iter().any(|found| found.contains("exchanged, the robot holds a pose")), "{touching:?}");
+    assert!(
+        touching.iter().any(|found| found.contains("the other way round, the robot holds a pose")),
+        "{touching:?}"
+    );
     // Of two cables with which the robot holds as much.
     let other = exchanged(0, 2);
-    assert!(other.iter().any(|found| found.contains("exchanged, the layout is symmetric")), "{other:?}");
+    assert!(
+        other.iter().any(|found| found.contains("the other way round, the layout is symmetric")),
+        "{other:?}"
+    );
 }
 
 #[test]

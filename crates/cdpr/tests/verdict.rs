@@ -166,11 +166,14 @@ fn tolerances_begin_with_what_to_tighten_and_what_independent_robots_say_of_it()
     };
     let printed = run("deflection_mm<0.9", &["--costs", "b=3"]);
     assert_narrow(&printed);
-    let lines: Vec<&str> = printed.lines().collect();
-    assert!(lines[0].starts_with("For 95 % below 0.9 mm, tighten the width of b to 8"), "{printed}");
+    assert!(printed.starts_with("For 95 % below 0.9 mm, tighten the width of b to 8"), "{printed}");
     // 4096 robots have found the factors, and 20 000 others miss the limit by a little.
-    assert!(lines[1].starts_with("Then 94.5 % (94.2 to 94.8) of the robots keep it, now 91."), "{printed}");
-    assert!(lines[2].starts_with("That is less than 95 %: a limit of 0.898"), "{printed}");
+    for line in [
+        "\nThen 94.5 % (94.2 to 94.8) of the robots keep it, now 91.",
+        "\nThat is less than 95 %: a limit of 0.898",
+    ] {
+        assert!(printed.contains(line), "{printed}");
+    }
     let enough = run("deflection_mm<1", &[]);
     assert!(enough.starts_with("The tolerances suffice: nothing has to be tightened for 95 %"), "{enough}");
     assert!(run("deflection_mm<0.9", &["--details"]).contains("quantile if it alone is halved [mm]"));

@@ -67,8 +67,8 @@ impl Findings<'_> {
         self.add(
             Severity::Warning,
             "cables[*].anchor_point",
-            format!("those of cables {}", pairs.join(", or ")),
-            "exchanged, the layout is symmetric, as that of most robots; as it is, it is not",
+            format!("perhaps exchanged for cables {}", pairs.join(", or ")),
+            "the other way round, the layout is symmetric, as that of most robots; as it is, it is not",
             "check which cable is at which anchor point",
         );
     }

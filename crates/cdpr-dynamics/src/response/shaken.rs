@@ -43,7 +43,9 @@ pub(super) struct ShakenCable {
 }
 
 /// Those in the plane of a cable and across it, which a wheel with a tilted axis couples.
+// Each is moved once, where it is made.
 #[derive(Clone, Debug)]
+#[allow(clippy::large_enum_variant)]
 enum ShakenMotions {
     Apart { in_plane: Shaken<2>, across: Shaken<1> },
     Together(Shaken<3>),

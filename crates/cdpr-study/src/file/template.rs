@@ -374,8 +374,9 @@ mod tests {
         // Lengths are absolute where there are leads, and that is said of the output that has them.
         let absolute =
             |robot: &Robot| template_notes(robot).contains("with position the lengths are absolute");
-        assert!(!absolute(&robot) && !absolute(&caroca()));
-        assert!(absolute(&Robot::from_library("ipanema-3").unwrap()));
+        let mut led = caroca();
+        led.cables[0].lead = 2.0;
+        assert!(!absolute(&robot) && !absolute(&caroca()) && absolute(&led));
     }
 
     #[test]

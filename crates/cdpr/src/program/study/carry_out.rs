@@ -10,6 +10,7 @@ use crate::program::output::{Ending, progress};
 use crate::program::questions;
 use crate::program::said;
 use cdpr_report::{draw, report_with};
+use cdpr_robot::COLUMNS;
 use cdpr_study::{
     Blocks, Plan, REPORT_NAME, Run, STUDY_NAME, Session, Shard, Study, StudyError, Summary, TableFormat,
     Watcher, observe_shard,
@@ -79,7 +80,11 @@ pub(super) fn whole(
     if common.format == Format::Text {
         println!("\nresults in {}\nreport in {}", out.display(), path.display());
         if !common.details.details {
-            println!("all measures: in the report, or with\n  {} --details", resumed(out, common));
+            let mut command = format!("  {} --details", resumed(out, common));
+            if command.chars().count() > COLUMNS {
+                command = command.replace(" --resume", " \\\n    --resume");
+            }
+            println!("all measures: in the report, or with\n{command}");
         }
     }
     Ok(ending(&results.summary))
