@@ -1,7 +1,7 @@
 //! `cargo xtask bench`: criterion's benchmarks and their instruction counts, next to a baseline.
 //!
 //! Times depend on the load of the machine: criterion compares them with those of its last run. Instruction
-//! counts do not: in criterion's test mode each benchmark calls its function `counted` once, and callgrind
+//! counts do not: in criterion's test mode each benchmark calls its function `in_one_call` once, and callgrind
 //! counts the instructions of that call. Valgrind does not support AVX-512, so that lanes are counted on
 //! AVX2.
 
@@ -17,7 +17,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::SystemTime;
 
-/// The bench targets whose benchmarks call `counted`.
+/// The bench targets whose benchmarks call `in_one_call`.
 const COUNTED: [&str; 4] = ["catenary", "tension", "statics", "observation"];
 /// A count is worse if it grew by more than this.
 const NOISE: f64 = 0.01;
@@ -139,7 +139,7 @@ fn counts(arguments: &[String]) -> Outcome<HashMap<String, u64>> {
         let target = COUNTED.iter().find(|target| message["target"]["name"] == **target);
         let (Some(target), Some(executable)) = (target, message["executable"].as_str()) else { continue };
         eprintln!("counting the instructions of {target}");
-        let mut command = callgrind(&folder, target, "*::counted", executable);
+        let mut command = callgrind(&folder, target, "*::in_one_call", executable);
         // The environment lies on the stack and shifts it.
         command.env_clear().env("PATH", "/usr/local/bin:/usr/bin:/bin").env("CRITERION_HOME", &folder);
         let printed = text_of(command.args(arguments), &[0])?;
@@ -149,7 +149,7 @@ fn counts(arguments: &[String]) -> Outcome<HashMap<String, u64>> {
         let parts: Vec<u64> = parts.map_while(Result::ok).filter_map(|part| total(&part)).collect();
         if parts.len() != names.len() {
             let (names, parts) = (names.len(), parts.len());
-            return Err(format!("{target}: {names} benchmarks, but {parts} calls of `counted`").into());
+            return Err(format!("{target}: {names} benchmarks, but {parts} calls of `in_one_call`").into());
         }
         counts.extend(names.into_iter().map(str::to_owned).zip(parts));
     }

@@ -12,7 +12,7 @@ use std::time::Duration;
 
 /// What `cargo xtask bench` counts the instructions of.
 #[inline(never)]
-fn counted<T>(task: impl FnOnce() -> T) -> T {
+fn in_one_call<T>(task: impl FnOnce() -> T) -> T {
     task()
 }
 
@@ -36,13 +36,13 @@ fn catenary(criterion: &mut Criterion) {
 
         let ratio = format!("sag {:.1e}", solution.catenary.sag() / end.norm());
         group.bench_function(BenchmarkId::new("response", &ratio), |b| {
-            b.iter(|| counted(|| respond(black_box(force.into()))));
+            b.iter(|| in_one_call(|| respond(black_box(force.into()))));
         });
         group.bench_function(BenchmarkId::new("end_force", &ratio), |b| {
-            b.iter(|| counted(|| end_force(black_box(&cable), length, black_box(end))));
+            b.iter(|| in_one_call(|| end_force(black_box(&cable), length, black_box(end))));
         });
         group.bench_function(BenchmarkId::new("length_for_tension", &ratio), |b| {
-            b.iter(|| counted(|| length_for_tension(black_box(&cable), black_box(end), tension)));
+            b.iter(|| in_one_call(|| length_for_tension(black_box(&cable), black_box(end), tension)));
         });
     }
     group.finish();
@@ -63,10 +63,10 @@ fn elastic_law(criterion: &mut Criterion) {
         let found = end_force(&cable, length, end).unwrap();
         assert!((found.catenary.anchor_tension() / tension - 1.0).abs() < 1e-9);
         group.bench_function(BenchmarkId::new("response", name), |b| {
-            b.iter(|| counted(|| black_box(&taut.catenary).response()));
+            b.iter(|| in_one_call(|| black_box(&taut.catenary).response()));
         });
         group.bench_function(BenchmarkId::new("end_force", name), |b| {
-            b.iter(|| counted(|| end_force(black_box(&cable), length, black_box(end))));
+            b.iter(|| in_one_call(|| end_force(black_box(&cable), length, black_box(end))));
         });
     }
     group.finish();

@@ -11,7 +11,7 @@ use cdpr_statics::batch::{Observation, ObservationSlopes};
 use cdpr_statics::{Load, Observer, WantedPose};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use problems::common::{alone, observed, robots};
-use problems::{caroca, counted, ring, settings};
+use problems::{caroca, in_one_call, ring, settings};
 use std::hint::black_box;
 
 /// Rows of deviations: sawtooths through the ranges of Table 3 of Baklouti, Caro, Courteille (CableCon 2017),
@@ -71,7 +71,7 @@ fn observation(criterion: &mut Criterion) {
     let one = deviations(&robot, 1);
     group.throughput(Throughput::Elements(1));
     group.bench_function("scalar", |b| {
-        b.iter(|| counted(|| alone::<Observation>(&observer, black_box(&one))));
+        b.iter(|| in_one_call(|| alone::<Observation>(&observer, black_box(&one))));
     });
     for batch in [1, 8, 64, 256, 4096] {
         let rows = deviations(&robot, batch);
@@ -81,7 +81,7 @@ fn observation(criterion: &mut Criterion) {
         }
         group.throughput(Throughput::Elements(batch as u64));
         group.bench_function(BenchmarkId::new("batch", batch), |b| {
-            b.iter(|| counted(|| observed::<Observation>(&observer, black_box(&rows))));
+            b.iter(|| in_one_call(|| observed::<Observation>(&observer, black_box(&rows))));
         });
     }
 
@@ -94,7 +94,7 @@ fn observation(criterion: &mut Criterion) {
         let found = observed::<Observation>(&observer, &rows);
         assert!(found.iter().all(|found| found.as_ref().is_ok_and(|found| found.loaded.force < 1e-8)));
         group.bench_function(BenchmarkId::new("cables", cables), |b| {
-            b.iter(|| counted(|| observed::<Observation>(&observer, black_box(&rows))));
+            b.iter(|| in_one_call(|| observed::<Observation>(&observer, black_box(&rows))));
         });
     }
     let guided = robots().map(|(robot, pose)| (guided(robot), pose));
@@ -104,13 +104,13 @@ fn observation(criterion: &mut Criterion) {
         let rows = shares(&robot, BATCH);
         assert!(observed::<Observation>(&observer, &rows).iter().all(Result::is_ok), "{}", robot.name);
         group.bench_function(BenchmarkId::new("robots", &robot.name), |b| {
-            b.iter(|| counted(|| observed::<Observation>(&observer, black_box(&rows))));
+            b.iter(|| in_one_call(|| observed::<Observation>(&observer, black_box(&rows))));
         });
         let found = observed::<ObservationSlopes>(&observer, &rows).into_iter().map(Result::unwrap);
         let in_lanes = found.filter(|found| found.observation.scalar.is_none()).count();
         assert!(in_lanes > BATCH * 7 / 8, "{}: {in_lanes}", robot.name);
         group.bench_function(BenchmarkId::new("slopes", &robot.name), |b| {
-            b.iter(|| counted(|| observed::<ObservationSlopes>(&observer, black_box(&rows))));
+            b.iter(|| in_one_call(|| observed::<ObservationSlopes>(&observer, black_box(&rows))));
         });
     }
     for (robot, pose, free) in on_four_cables() {
@@ -120,7 +120,7 @@ fn observation(criterion: &mut Criterion) {
         let found = observed::<Observation>(&observer, &rows);
         assert!(found.iter().all(|found| found.as_ref().unwrap().scalar.is_none()), "{}", robot.name);
         group.bench_function(BenchmarkId::new("free", &robot.name), |b| {
-            b.iter(|| counted(|| observed::<Observation>(&observer, black_box(&rows))));
+            b.iter(|| in_one_call(|| observed::<Observation>(&observer, black_box(&rows))));
         });
     }
     group.finish();

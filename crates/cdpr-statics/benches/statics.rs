@@ -8,7 +8,7 @@ use cdpr_robot::{Pose, Pulley, Robot, Vector3};
 use cdpr_statics::continuation::{Setting, follow};
 use cdpr_statics::{DirectProblem, DirectStart, Load, Tracker, deflection, derivatives, direct, inverse};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use problems::{caroca, counted, ring, settings};
+use problems::{caroca, in_one_call, ring, settings};
 use std::hint::black_box;
 
 fn inverse_model(criterion: &mut Criterion) {
@@ -18,14 +18,14 @@ fn inverse_model(criterion: &mut Criterion) {
         let solution = inverse(&robot, &pose, &Load::none()).unwrap();
         assert!(solution.residual.force < 1e-9);
         group.bench_function(name, |b| {
-            b.iter(|| counted(|| inverse(black_box(&robot), black_box(&pose), &Load::none())));
+            b.iter(|| in_one_call(|| inverse(black_box(&robot), black_box(&pose), &Load::none())));
         });
     }
     for (name, axis) in pulleys() {
         let (robot, pose) = (led(axis), Pose::at(0.0, 0.0, 1.75));
         assert!(inverse(&robot, &pose, &Load::none()).unwrap().residual.force < 1e-9);
         group.bench_function(BenchmarkId::new("pulleys", name), |b| {
-            b.iter(|| counted(|| inverse(black_box(&robot), black_box(&pose), &Load::none())));
+            b.iter(|| in_one_call(|| inverse(black_box(&robot), black_box(&pose), &Load::none())));
         });
     }
     group.finish();
@@ -63,7 +63,7 @@ fn direct_model(criterion: &mut Criterion) {
         let found = direct(&robot, lengths, &load, start).unwrap();
         assert!(found.report.residual.force < 1e-8, "{name}: {:?}", found.report);
         group.bench_function(name, |b| {
-            b.iter(|| counted(|| direct(black_box(&robot), black_box(lengths), &load, start)));
+            b.iter(|| in_one_call(|| direct(black_box(&robot), black_box(lengths), &load, start)));
         });
     }
     let lawful = Robot::from_library("caroca-law").unwrap();
@@ -71,7 +71,7 @@ fn direct_model(criterion: &mut Criterion) {
     let (load, near) = (Load::payload(50.0), DirectStart::Near(&wound.equilibrium));
     assert!(direct(&lawful, &wound.lengths, &load, near).unwrap().report.residual.force < 1e-8);
     group.bench_function("law", |b| {
-        b.iter(|| counted(|| direct(black_box(&lawful), black_box(&wound.lengths), &load, near)));
+        b.iter(|| in_one_call(|| direct(black_box(&lawful), black_box(&wound.lengths), &load, near)));
     });
     for n in [6, 8, 12, 16] {
         let robot = ring(n);
@@ -82,7 +82,7 @@ fn direct_model(criterion: &mut Criterion) {
         let load = Load::payload(5.0);
         assert!(direct(&robot, &lengths, &load, near).unwrap().report.residual.force < 1e-8);
         group.bench_function(BenchmarkId::new("cables", n), |b| {
-            b.iter(|| counted(|| direct(black_box(&robot), black_box(&lengths), &load, near)));
+            b.iter(|| in_one_call(|| direct(black_box(&robot), black_box(&lengths), &load, near)));
         });
     }
     group.finish();
@@ -106,7 +106,7 @@ fn tracking(criterion: &mut Criterion) {
         b.iter(|| {
             there = !there;
             let lengths = black_box(if there { &wanted.lengths } else { &wound });
-            counted(|| tracker.update(lengths, &load).is_ok())
+            in_one_call(|| tracker.update(lengths, &load).is_ok())
         });
     });
     group.finish();
@@ -123,20 +123,22 @@ fn proofs_and_searches(criterion: &mut Criterion) {
     assert!(proof.position < 1e-12 && proof.is_stable());
     group.bench_function("certify", |b| {
         b.iter(|| {
-            counted(|| {
+            in_one_call(|| {
                 DirectProblem::new(black_box(&robot), black_box(&wanted.lengths), &load)?.certify(&found)
             })
         });
     });
     assert!(found.stability.least_stiffness() > 0.0);
     group.bench_function("least_stiffness", |b| {
-        b.iter(|| counted(|| black_box(&found).stability.least_stiffness()));
+        b.iter(|| in_one_call(|| black_box(&found).stability.least_stiffness()));
     });
     let from = Setting { lengths: wanted.lengths.clone(), load: Load::none() };
     let to = Setting { lengths: wanted.lengths.clone(), load };
     assert_eq!(follow(&robot, &from, &to, DirectStart::Near(&wanted.equilibrium)).unwrap().lost, None);
     group.bench_function("follow", |b| {
-        b.iter(|| counted(|| follow(black_box(&robot), &from, &to, DirectStart::Near(&wanted.equilibrium))));
+        b.iter(|| {
+            in_one_call(|| follow(black_box(&robot), &from, &to, DirectStart::Near(&wanted.equilibrium)))
+        });
     });
     group.finish();
 }
@@ -150,12 +152,14 @@ fn whole_deflection(criterion: &mut Criterion) {
         let found = deflection(&robot, &pose, &load).unwrap();
         assert!((1e3 * found.magnitude() - expected_mm).abs() < 1e-4);
         group.bench_function(name, |b| {
-            b.iter(|| counted(|| deflection(black_box(&robot), black_box(&pose), &load)));
+            b.iter(|| in_one_call(|| deflection(black_box(&robot), black_box(&pose), &load)));
         });
         group.bench_function(BenchmarkId::new("tangent", name), |b| {
             let (lengths, unloaded) = (&found.lengths, &found.unloaded.equilibrium);
             b.iter(|| {
-                counted(|| DirectProblem::new(black_box(&robot), lengths, &Load::none())?.linearize(unloaded))
+                in_one_call(|| {
+                    DirectProblem::new(black_box(&robot), lengths, &Load::none())?.linearize(unloaded)
+                })
             });
         });
     }
@@ -164,7 +168,7 @@ fn whole_deflection(criterion: &mut Criterion) {
         let found = deflection(&robot, &pose, &load).unwrap();
         assert!(found.loaded.report.residual.force < 1e-8);
         group.bench_function(BenchmarkId::new("pulleys", name), |b| {
-            b.iter(|| counted(|| deflection(black_box(&robot), black_box(&pose), &load)));
+            b.iter(|| in_one_call(|| deflection(black_box(&robot), black_box(&pose), &load)));
         });
     }
     group.finish();
@@ -180,7 +184,7 @@ fn exact_derivatives(criterion: &mut Criterion) {
         let found = derivatives(&robot, &pose, &load).unwrap();
         assert!((1e12 * found.magnitude().unwrap()[2] - expected).abs() < 1e-6);
         group.bench_function(name, |b| {
-            b.iter(|| counted(|| derivatives(black_box(&robot), black_box(&pose), &load)));
+            b.iter(|| in_one_call(|| derivatives(black_box(&robot), black_box(&pose), &load)));
         });
     }
     group.finish();

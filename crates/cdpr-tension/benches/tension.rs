@@ -11,7 +11,7 @@ use std::time::Duration;
 
 /// What `cargo xtask bench` counts the instructions of.
 #[inline(never)]
-fn counted<T>(task: impl FnOnce() -> T) -> T {
+fn in_one_call<T>(task: impl FnOnce() -> T) -> T {
     task()
 }
 
@@ -32,13 +32,13 @@ fn tension(criterion: &mut Criterion) {
         let solution = distribute(&problem, objective).unwrap();
         assert_eq!(solution.method, method);
         assert!(solution.residual.norm() < 1e-5);
-        group.bench_function(name, |b| b.iter(|| counted(|| distribute(black_box(&problem), objective))));
+        group.bench_function(name, |b| b.iter(|| in_one_call(|| distribute(black_box(&problem), objective))));
     }
     // Tensions too small for the weight: Clarabel proves it and finds the best attempt.
     let limits = &[TensionLimits { min: 1.0, max: 10.0 }; 8];
     let (problem, least) = (Problem { wrench_matrix, wrench, limits }, Objective::Nearest(&[0.0; 8]));
     assert!(matches!(distribute(&problem, least), Err(TensionError::Infeasible { .. })));
-    group.bench_function("infeasible", |b| b.iter(|| counted(|| distribute(black_box(&problem), least))));
+    group.bench_function("infeasible", |b| b.iter(|| in_one_call(|| distribute(black_box(&problem), least))));
     group.finish();
 }
 

@@ -20,6 +20,6 @@ pub(crate) fn settings() -> Criterion {
 
 /// What `cargo xtask bench` counts the instructions of.
 #[inline(never)]
-pub(crate) fn counted<T>(task: impl FnOnce() -> T) -> T {
+pub(crate) fn in_one_call<T>(task: impl FnOnce() -> T) -> T {
     task()
 }
