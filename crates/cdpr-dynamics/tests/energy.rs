@@ -19,7 +19,7 @@ fn wound(robot: &Robot, (position, free): ([f64; 3], &str), by: f64, settings: &
     energy
 }
 
-/// With the tension at the exit in place of the force on the first point, 6e-4 of the work of FAST's winch
+/// With the tension at the exit instead of the force on the first point, 6e-4 of the work of FAST's winch
 /// were missing, and 1e-4 of that of HRPCables.
 #[test]
 fn without_damping_the_energy_is_the_work_of_the_winches() {

@@ -209,8 +209,8 @@ fn print(summary: &CalibrationSummary) {
         sentences.insert(
             0,
             format!(
-                "The measurements do not fit {robot}: they are {} standard deviations off on average. Are they of \
-                 this robot, in this order of the cables, in these units?",
+                "The measurements do not fit {robot}: they are {} standard deviations off on average. Are they \
+                 of this robot, in this order of the cables, in these units?",
                 significant(misfit.sqrt(), 3)
             ),
         );
@@ -259,8 +259,8 @@ fn about_apart(summary: &CalibrationSummary, RowApart { line, share, others_fit 
         return format!("Line {line}{column} does not fit {robot}, all other rows do.");
     }
     format!(
-        "The measurements do not fit {robot}: line {line}{column} makes {:.0} % of the misfit. Is it of another \
-         pose, or mistyped? Leave it out, or let it count less: --with loss=huber.",
+        "The measurements do not fit {robot}: line {line}{column} makes {:.0} % of the misfit. Is it of \
+         another pose, or mistyped? Leave it out, or let it count less: --with loss=huber.",
         100.0 * share
     )
 }

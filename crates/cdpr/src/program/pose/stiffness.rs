@@ -133,7 +133,7 @@ impl Answer {
         let [whole, symmetric] = [&self.stiffness, &self.symmetric_part].map(|matrix| self.lines(matrix));
         println!("{head}");
         whole.iter().for_each(|line| println!("{line}"));
-        // The other part may be small beside the digits that are printed.
+        // The other part may be too small for the digits that are printed.
         if whole != symmetric {
             println!("its symmetric part, which has these eigenvalues:");
             symmetric.iter().for_each(|line| println!("{line}"));
