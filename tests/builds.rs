@@ -37,7 +37,10 @@ fn dependencies_are_compiled_once() {
         for (package, tests_ask) in &tests {
             let Some(asked) = own.get(package).filter(|_| !package.starts_with("cdpr")) else { continue };
             let other: Vec<_> = asked.difference(tests_ask).collect();
-            assert!(other.is_empty(), "{selection:?}: {package} with {other:?}, the tests with {tests_ask:?}");
+            assert!(
+                other.is_empty(),
+                "{selection:?}: {package} with {other:?}, the tests with {tests_ask:?}"
+            );
         }
     }
 }

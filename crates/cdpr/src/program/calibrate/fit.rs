@@ -12,7 +12,7 @@ use cdpr_calibration::{
     OutlierSummary, ParameterSummary, Quantity, RobustLoss, RowApart, Unknowns, carry_out, read_measurements,
 };
 use cdpr_report::calibration_report;
-use cdpr_robot::{Robot, counted, listing, rounded, shown, significant};
+use cdpr_robot::{Robot, counted, listing, shown, significant};
 use cdpr_study::{ErrorModel, InputKind, check_table, read_bytes};
 use std::path::PathBuf;
 
@@ -173,6 +173,9 @@ const MISFIT: f64 = 100.0;
 /// Parameters in the table of the answer.
 const LEADING: usize = 5;
 
+/// Significant digits of a value at most.
+const DIGITS: f64 = 9.0;
+
 /// The accuracy that is left, how well the model fits, and the parameters that moved most.
 fn print(summary: &CalibrationSummary) {
     let all = || summary.parameters.iter().chain(&summary.sensors);
@@ -231,19 +234,22 @@ fn print(summary: &CalibrationSummary) {
     }
     sentences.extend(summary.warnings.iter().map(|warning| format!("warning: {warning}")));
     sentences.iter().for_each(|sentence| print_sentence(sentence));
-    let mut moved: Vec<_> = all().collect();
+    // A frame begins anywhere: where it is tells nothing of the robot.
+    let mut moved: Vec<_> = all().filter(|(name, _)| !name.starts_with("frame.")).collect();
     let share = |of: &ParameterSummary| {
         of.std.filter(|std| *std > 0.0).map_or(0.0, |std| ((of.after - of.before) / std).abs())
     };
     moved.sort_by(|one, other| share(other.1).total_cmp(&share(one.1)));
-    let mut rows = table(&["moved most", "before", "after", "std", "identifiable"]);
+    let mut rows = table(&["moved most", "before", "after", "std", "unit", "identifiable"]);
     for (name, of) in moved.into_iter().take(LEADING) {
+        let [before, after, std] = values(of);
         rows.add_row([
-            name.clone(),
-            rounded(of.before, 9).to_string(),
-            rounded(of.after, 9).to_string(),
-            of.std.map_or_else(|| "-".to_owned(), |std| format!("{std:.2e}")),
-            if of.identifiable { "yes" } else { "no" }.to_owned(),
+            name.as_str(),
+            &before,
+            &after,
+            &std,
+            of.unit,
+            if of.identifiable { "yes" } else { "no" },
         ]);
     }
     println!("{rows}");
@@ -280,6 +286,18 @@ fn of_identifiable(robot: &str, [identifiable, known, all]: [usize; 3]) -> Strin
     format!("From the measurements alone, {alone} identifiable.{before}")
 }
 
+/// What a parameter was, is, and its standard deviation. Both values have the digits that two digits of the
+/// standard deviation leave them.
+fn values(of: &ParameterSummary) -> [String; 3] {
+    let value = |value: f64| {
+        let size = |of: f64| of.abs().log10().floor();
+        let digits = of.std.map_or(DIGITS, |std| (size(value) - size(std) + 2.0).clamp(1.0, DIGITS));
+        significant(value, digits as usize)
+    };
+    let std = of.std.map_or_else(|| "-".to_owned(), |std| significant(std, 2));
+    [value(of.before), value(of.after), std]
+}
+
 /// Three digits of a length.
 fn digits(value: f64) -> String {
     significant(value, 3)
@@ -308,16 +326,26 @@ fn print_details(summary: &CalibrationSummary, found: &Fit) {
         ]);
     }
     println!("{rows}");
-    let columns =
-        ["parameter", "before", "after", "std", "std by data alone", "moved [prior std]", "identifiable"];
+    let columns = [
+        "parameter",
+        "before",
+        "after",
+        "std",
+        "std by data alone",
+        "unit",
+        "moved [prior std]",
+        "identifiable",
+    ];
     let mut rows = wide_table(&columns);
     for (name, of) in summary.parameters.iter().chain(&summary.sensors) {
+        let [before, after, std] = values(of);
         rows.add_row([
             name.clone(),
-            rounded(of.before, 9).to_string(),
-            rounded(of.after, 9).to_string(),
-            of.std.map_or_else(|| "-".to_owned(), |std| format!("{std:.2e}")),
-            of.std_of_data.map_or_else(|| "-".to_owned(), |std| format!("{std:.2e}")),
+            before,
+            after,
+            std,
+            of.std_of_data.map_or_else(|| "-".to_owned(), |std| significant(std, 2)),
+            of.unit.to_owned(),
             of.moved_by_prior_std.map_or_else(|| "-".to_owned(), |moved| format!("{moved:+.2}")),
             if of.identifiable { "yes" } else { "no" }.to_owned(),
         ]);
