@@ -49,6 +49,11 @@ fn a_file_of_poses_is_read_line_by_line() {
     std::fs::write(&path, "0,0,1.75,1,0,0,0\n\n1,0.5,2,0.99,0,0,0.1\n").unwrap();
     let json: Value = serde_json::from_slice(&run(&arguments).stdout).unwrap();
     assert_eq!(json["poses"], 2);
+    // One reflector.
+    let position = ["--poses", path.to_str().unwrap(), "--noise", "position=1e-4", "--format", "json"];
+    let reflector: Value =
+        serde_json::from_str(&answered(run(&[&position[..], &UNCERTAINTY].concat()))).unwrap();
+    assert_eq!(reflector["identifiable"].as_array().unwrap().len(), 6);
     std::fs::write(&path, "0,0,1.75\n1,0.5\n").unwrap();
     let error = unwrapped(run(&arguments).stderr);
     assert!(
@@ -91,8 +96,8 @@ fn bad_input_is_named_with_what_would_be_right() {
         ),
         (vec![grid, NOISE[0], NOISE[1], "--uncertainty", "a"], "`a`: expected name=number"),
         (
-            vec![grid, NOISE[0], "position=1e-4", UNCERTAINTY[0], UNCERTAINTY[1]],
-            "--noise is of position alone: expected position and rotation together",
+            vec![grid, NOISE[0], "rotation=1e-4", UNCERTAINTY[0], UNCERTAINTY[1]],
+            "--noise rotation is 0.0001: expected position, too",
         ),
         (
             vec![grid, NOISE[0], "force=1", UNCERTAINTY[0], UNCERTAINTY[1]],

@@ -69,6 +69,29 @@ fn a_breaking_force_in_another_unit_is_questioned() {
 }
 
 #[test]
+fn a_loop_that_gives_energy_is_questioned() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("exchanged.csv");
+    let record = std::fs::read_to_string(record()).unwrap();
+    let mut lines: Vec<&str> = record.lines().filter(|line| line.contains("loading")).collect();
+    // Run through from its end, the loop is the same the other way round.
+    lines.reverse();
+    let exchanged: Vec<String> = lines
+        .iter()
+        .map(|line| match line.strip_suffix(",unloading") {
+            Some(numbers) => format!("{numbers},loading\n"),
+            None if line.starts_with("3087,") => format!("{line}\n"),
+            None => line.replace(",loading", ",unloading\n"),
+        })
+        .collect();
+    std::fs::write(&file, format!("force_n,elongation_mm,phase\n{}", exchanged.concat())).unwrap();
+    let output = modulus(file.to_str().unwrap(), &["--range", "5-10"]);
+    let said = unwrapped(output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("less than zero: a cable gives no energy"), "{said}");
+}
+
+#[test]
 fn what_cannot_be_answered_ends_with_an_error_that_says_why() {
     let folder = tempfile::tempdir().unwrap();
     let bad = folder.path().join("bad.csv");

@@ -7,11 +7,12 @@ use cdpr_robot::Robot;
 /// What is measured at every pose, with the standard deviation of its noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Measurement {
-    /// The pose where the platform stands with the lengths of the nominal robot.
+    /// The pose, or the position alone, where the platform stands with the lengths of the nominal robot.
     Pose {
         /// Noise of each coordinate [m].
         position: f64,
-        /// Noise of each component of the rotation [rad]; `None` of a point mass, which has no rotation.
+        /// Noise of each component of the rotation [rad]; `None` where it is not measured, as of one reflector,
+        /// and of a point mass, which has no rotation.
         rotation: Option<f64>,
     },
     /// The tensions at the platform there; noise [N].
@@ -21,12 +22,12 @@ pub enum Measurement {
 }
 
 impl Measurement {
-    /// Measurements of a robot by the names of their noise: position and rotation together, of a point mass
-    /// the position alone, tensions, lengths.
+    /// Measurements of a robot by the names of their noise: position, with or without rotation, tensions,
+    /// lengths.
     ///
     /// # Errors
-    /// [`CalibrationError::Invalid`] for another name, for one of position and rotation alone, for the
-    /// rotation of a point mass, and for length alone.
+    /// [`CalibrationError::Invalid`] for another name, for rotation without position, for the rotation of a
+    /// point mass, and for length alone.
     pub fn named(robot: &Robot, named: &[(String, f64)]) -> Result<Vec<Self>, CalibrationError> {
         let noise = Noise::named(named)?;
         const NAMES: [&str; 4] = ["position", "rotation", "tension", "length"];
@@ -39,11 +40,11 @@ impl Measurement {
                 let expected = "no such noise: a point mass has no rotation, position alone is its pose";
                 return Err(CalibrationError::invalid("noise rotation", rotation, expected));
             }
-            (Some(position), None) if robot.platform.point => Some(Self::Pose { position, rotation: None }),
-            (Some(position), rotation @ Some(_)) => Some(Self::Pose { position, rotation }),
+            (Some(position), rotation) => Some(Self::Pose { position, rotation }),
             (None, None) => None,
-            (Some(_), None) => return Err(Self::alone("position")),
-            (None, Some(_)) => return Err(Self::alone("rotation")),
+            (None, Some(rotation)) => {
+                return Err(CalibrationError::invalid("noise rotation", rotation, "position, too"));
+            }
         };
         if pose.is_none() && noise.tension.is_none() && noise.length.is_some() {
             return Err(Self::lengths_alone());
@@ -53,11 +54,7 @@ impl Measurement {
     }
 
     pub(super) fn lengths_alone() -> CalibrationError {
-        let expected = "position and rotation, or tension, too: lengths say where the platform is, no more";
+        let expected = "position or tension, too: lengths say where the platform is, no more";
         CalibrationError::invalid("noise", "of length alone", expected)
-    }
-
-    fn alone(name: &str) -> CalibrationError {
-        CalibrationError::invalid("noise", format!("of {name} alone"), "position and rotation together")
     }
 }

@@ -119,6 +119,12 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
         ranges: ranges.collect::<Result<_, cdpr_cable::RecordError>>()?,
         dissipated_energy_j: record.dissipated_energy(),
     };
+    questions::ask((found.dissipated_energy_j < 0.0).then(|| Doubt {
+        quantity: "the energy that the loop dissipates".to_owned(),
+        value: format!("{:.4} J", found.dissipated_energy_j),
+        why: "less than zero: a cable gives no energy".to_owned(),
+        meant: "a record whose phases are not exchanged, with elongations from one zero".to_owned(),
+    }));
     let asked =
         |range: &InRange| plausible::modulus("modulus of the record", 1e9 * range.loading.modulus_gpa);
     questions::ask(found.ranges.iter().find_map(asked));
