@@ -213,6 +213,38 @@ fn with_inertia(robot: &Robot) -> cdpr_robot::Platform {
 }
 
 #[test]
+fn each_start_is_at_a_robot_that_is_held_where_one_can_be_drawn() {
+    let cable = |exit: [f64; 2], anchor: [f64; 2]| json!({"exit_point": [exit[0], 0, exit[1]], "anchor_point": [anchor[0], 0, anchor[1]]});
+    let robot = json!({
+        "format": "cdpr-robot/1", "name": "Redundant", "gravity": 9.81, "plane": "xz",
+        "platform": {"mass": 12.0, "center_of_mass": [0.03, 0, 0.02]},
+        "cable": {"section": 4e-6, "linear_density": 0.04, "youngs_modulus": 5e10},
+        "tension_limits": {"min": 20.0, "max": 2500.0}, "tension_reference": 300.0,
+        "cables": [
+            cable([-3.0, 3.0], [-0.3, 0.15]),
+            cable([3.2, 2.8], [0.25, 0.2]),
+            cable([-2.9, 0.0], [-0.25, -0.2]),
+            cable([3.0, 0.2], [0.3, -0.15]),
+        ],
+    });
+    let robot = Robot::from_json(&robot.to_string()).unwrap();
+    // Of robots at random in this box about a quarter holds both poses.
+    let file = json!({
+        "format": "cdpr-design/1",
+        "variables": [
+            {"parameters": ["b1.z", "b2.z"], "bounds": [2.2, 4.5]},
+            {"parameters": ["b1.x", "b2.x"], "signs": [1, -1], "bounds": [-4.0, -2.2]},
+        ],
+        "poses": {"list": [{"position": [0.4, 0, 1.3], "rpy_deg": [0, 4, 0]}, {"position": [-0.6, 0, 1.0]}]},
+        "payload": 8.0,
+        "objective": {"output": "deflection", "over": "worst"},
+        "starts": 4,
+    });
+    let best = solve(&file, robot).best.unwrap();
+    assert!(best.optimal && best.same >= 3, "{best:?}");
+}
+
+#[test]
 fn an_unheld_robot_leads_to_no_design() {
     let found = solve(&apart([-6.0, -0.5], 1.0), planar(1.0, 100.0));
     assert_eq!((found.before, found.feasible_before, found.feasible), (None, false, 0));

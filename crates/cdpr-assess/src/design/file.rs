@@ -54,7 +54,7 @@ pub struct DesignFile {
     /// What is demanded at every pose.
     #[serde(default, skip_serializing_if = "LimitsSpec::is_empty")]
     pub limits: LimitsSpec,
-    /// Starts of the local search: the robot as it is, and points of Sobol's sequence.
+    /// Starts of the local search: the robot as it is, and points of Sobol's sequence where it is held.
     #[serde(default = "DesignFile::usual_starts")]
     pub starts: usize,
     /// Seed of a scrambling of these points; without it the sequence is the plain one.

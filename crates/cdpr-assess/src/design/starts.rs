@@ -12,6 +12,9 @@ use cdpr_statics::limits::allowed;
 use cdpr_study::StudyError;
 use rayon::prelude::*;
 
+/// Points of Sobol's sequence that a start tries at most, until the robot is held there.
+const DRAWS: usize = 30;
+
 /// Where the searches of a problem ended.
 pub(crate) struct Searched {
     /// Starts of the local search in each configuration; 0 where nothing has bounds.
@@ -40,12 +43,17 @@ impl Searched {
         };
         let each = starts.len();
         let run = |number: usize| {
-            let (values, start) = (problem.configuration(number / each), &starts[number % each]);
-            let (found, evaluations) = Search::run(problem, values.clone(), start.clone());
-            // A robot that is held without derivatives counts, but no search goes on from it.
-            let alone =
-                || Some(Found { residual: f64::INFINITY, ..single(problem, problem.placed(values, start))? });
-            (found.or_else(alone), evaluations)
+            let values = problem.configuration(number / each);
+            let mut evaluations = 0;
+            let found = starts[number % each].iter().find_map(|start| {
+                let (found, more) = Search::run(problem, values.clone(), start.clone());
+                evaluations += more;
+                // A robot that is held without derivatives counts, but no search goes on from it.
+                let placed = || problem.placed(values.clone(), start);
+                let alone = || Some(Found { residual: f64::INFINITY, ..single(problem, placed())? });
+                found.or_else(alone)
+            });
+            (found, evaluations)
         };
         let (found, evaluations): (Vec<_>, Vec<usize>) =
             (0..configurations * each).into_par_iter().map(run).unzip();
@@ -113,8 +121,9 @@ fn passed(problem: &DesignProblem, values: &[f64], at: &Evaluation) -> String {
     }
 }
 
-/// Starts of the local search in the box between the bounds; `None` where nothing has bounds.
-fn starts(problem: &DesignProblem, further: &[Vec<f64>]) -> Result<Option<Vec<Vec<f64>>>, StudyError> {
+/// Starts of the local search in the box between the bounds, each with the points that are tried until the
+/// robot is held; `None` where nothing has bounds.
+fn starts(problem: &DesignProblem, further: &[Vec<f64>]) -> Result<Option<Vec<Vec<Vec<f64>>>>, StudyError> {
     let in_box = |values: &[f64]| -> Vec<f64> {
         let place = |(j, [low, high]): (usize, [f64; 2])| ((values[j] - low) / (high - low)).clamp(0.0, 1.0);
         problem.bounded().map(place).collect()
@@ -133,7 +142,8 @@ fn starts(problem: &DesignProblem, further: &[Vec<f64>]) -> Result<Option<Vec<Ve
         let mut point = vec![0.0; nominal.len()];
         sobol.point(index as u32, &mut point).map(|()| point).map_err(too_many)
     };
-    let others: Vec<Vec<f64>> = (1..problem.starts).map(point).collect::<Result<_, _>>()?;
-    let further = further.iter().map(|values| in_box(values));
-    Ok(Some([nominal.clone()].into_iter().chain(others).chain(further).collect()))
+    let others = |first: usize| (first..DRAWS * problem.starts).step_by(problem.starts).map(point).collect();
+    let others: Vec<Vec<Vec<f64>>> = (1..problem.starts).map(others).collect::<Result<_, _>>()?;
+    let further = further.iter().map(|values| vec![in_box(values)]);
+    Ok(Some([vec![nominal.clone()]].into_iter().chain(others).chain(further).collect()))
 }
