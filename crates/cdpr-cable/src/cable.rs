@@ -137,7 +137,7 @@ impl Cable<'_> {
     /// The straight cable to `end` [m], the cable without its guide, and the end from where it leaves that.
     ///
     /// # Errors
-    /// [`CableError::InvalidInput`] for an end within the wheel or behind it.
+    /// [`CableError::AtPulley`] for an end within the wheel or behind it.
     pub(crate) fn straightened(
         &self,
         end: Vector3<f64>,
@@ -150,12 +150,7 @@ impl Cable<'_> {
 
     pub(crate) fn below_the_pulley(&self, end: Vector3<f64>) -> CableError {
         let axis = self.guide.map_or_else(Vector3::z, |guide| guide.entry.axis().into());
-        CableError::InvalidInput {
-            field: if self.leaves_its_plane() { "end" } else { "end.x" },
-            value: (end - axis * end.dot(&axis)).norm(),
-            expected: "a distance [m] from the swivel axis at which the cable can leave the pulley away from the \
-                       axis: more than its diameter beyond the wheel",
-        }
+        CableError::AtPulley { distance: (end - axis * end.dot(&axis)).norm() }
     }
 
     /// Whether it runs over a pulley with a tilted axis: then it is a [`crate::SpatialCable`], whose plane

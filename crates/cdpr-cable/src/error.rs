@@ -15,6 +15,16 @@ pub enum CableError {
         /// What would be right.
         expected: &'static str,
     },
+    /// The anchor point lies within the wheel of a pulley, or where the cable would lean back over it.
+    #[error(
+        "its anchor point is {} m from the swivel axis of its pulley: expected a distance at which the cable can \
+         leave the pulley away from the axis, more than the diameter of the wheel beyond it",
+        short(*distance)
+    )]
+    AtPulley {
+        /// Distance of the anchor point from the swivel axis [m].
+        distance: f64,
+    },
     /// The weight of the cable alone demands more tension over this span than is asked for.
     #[error(
         "a tension of {} N at the anchor point is too small: over this span the weight of the cable \

@@ -52,8 +52,8 @@ pub fn fit(
     let moved =
         [SensorError::LengthOffset, SensorError::DrumScale, SensorError::Frame, SensorError::FrameScale];
     if moved.iter().all(|error| unknowns.sensor(*error).is_none()) {
-        check_columns(robot, rows, |row| problem.model.measured_pose(row))?;
-        problem.check_frame(rows)?;
+        let constant = check_columns(robot, rows, |row| problem.model.measured_pose(row))?;
+        problem.check_frame(rows, constant)?;
     }
     let (start, first) = problem.begin()?;
     let without = |gone: &[usize]| {

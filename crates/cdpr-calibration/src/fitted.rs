@@ -169,20 +169,38 @@ pub(crate) struct LengthOffsets {
     pub(crate) gain: f64,
     /// The constant error of each cable [m].
     pub(crate) offsets: Vec<f64>,
+    /// What one constant error of all cables would take from chi-square, and that error [m].
+    pub(crate) common: (f64, f64),
 }
 
 impl LengthOffsets {
     /// The cable with the greatest constant error, and that error [m], where such errors are significant and
     /// explain most of what a chi-square with these degrees of freedom exceeds its mean by.
     pub(crate) fn explain(&self, chi_square: f64, degrees: usize) -> Option<(usize, f64)> {
-        let (cables, degrees) = (self.offsets.len() as f64, degrees as f64);
-        let chance = statrs::function::gamma::gamma_ur(0.5 * cables, 0.5 * self.gain.max(f64::MIN_POSITIVE));
-        let (excess, left) = (chi_square - degrees, chi_square - self.gain - (degrees - cables));
         let greatest =
             self.offsets.iter().copied().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-        greatest.filter(|_| chance < UNLIKELY && left < LEFT * excess)
+        greatest.filter(|_| explains(self.gain, self.offsets.len(), chi_square, degrees))
+    }
+
+    /// The one constant error of all lengths [m], where it explains as much and nearly all that those of single
+    /// cables do.
+    pub(crate) fn explain_together(&self, chi_square: f64, degrees: usize) -> Option<f64> {
+        let (gain, offset) = self.common;
+        (gain > SAME * self.gain && explains(gain, 1, chi_square, degrees)).then_some(offset)
     }
 }
+
+/// Whether `gain` by so many further unknowns is significant, and is most of what a chi-square exceeds its mean
+/// by.
+fn explains(gain: f64, unknowns: usize, chi_square: f64, degrees: usize) -> bool {
+    let (unknowns, degrees) = (unknowns as f64, degrees as f64);
+    let chance = statrs::function::gamma::gamma_ur(0.5 * unknowns, 0.5 * gain.max(f64::MIN_POSITIVE));
+    let (excess, left) = (chi_square - degrees, chi_square - gain - (degrees - unknowns));
+    chance < UNLIKELY && left < LEFT * excess
+}
+
+/// Share of the gain by errors of single cables that one error of all must have.
+const SAME: f64 = 0.95;
 
 /// Share of an excess of chi-square that an explanation may leave.
 const LEFT: f64 = 0.25;

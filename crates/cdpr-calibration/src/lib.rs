@@ -43,7 +43,7 @@ pub use results::folder::{CALIBRATED_NAME, Calibrated, POSTERIOR_NAME};
 pub use results::patterns::{Split, Trend};
 pub use results::predicted::UncertaintyMap;
 pub use results::summary::{
-    CalibrationSummary, Campaign, OutlierSummary, ParameterSummary, RowApart, SensorSummary,
+    CalibrationSummary, Campaign, LengthConstant, OutlierSummary, ParameterSummary, RowApart, SensorSummary,
 };
 pub use sensor_error::SensorError;
 pub use simulate::{Simulated, drawn, drawn_errors, simulate};

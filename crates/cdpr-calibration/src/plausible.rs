@@ -4,7 +4,7 @@
 use crate::campaign::{Quantity, Row};
 use crate::error::CalibrationError;
 use crate::sensor_error::size;
-use cdpr_robot::{Axis, Pose, Robot, Rotation3, Vector3};
+use cdpr_robot::{Axis, Pose, Robot, Rotation3, Vector3, significant};
 
 /// A misfit of a column above this share of the robot's size is looked into.
 const FAR: f64 = 0.05;
@@ -44,8 +44,45 @@ fn cell(row: &Row, cable: usize, length: f64, expected: String) -> CalibrationEr
     CalibrationError::Cell { line: row.line, column, value: length.to_string(), expected }
 }
 
+/// A constant by which all lengths differ from those of straight cables at the measured poses.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MissingLength {
+    /// What would have to be added to the lengths [m].
+    pub(crate) missing: f64,
+    /// Root mean square of what it leaves of the differences [m].
+    pub(crate) left: f64,
+    cables: usize,
+}
+
+impl MissingLength {
+    /// The refusal of such lengths.
+    pub(crate) fn refusal(&self) -> CalibrationError {
+        let Self { missing, left, cables } = *self;
+        let (size, left) = (significant(missing.abs(), 3), significant(left, 2));
+        let fit = format!("lengths and positions would then fit to {left} m");
+        let cause = "such as the lead between winch and exit point, or where the winches count from";
+        let expected = match missing > 0.0 {
+            true => format!(
+                "lengths that are {size} m longer, all of them: {fit}. Is a constant missing in them, {cause}?"
+            ),
+            false => format!(
+                "lengths that are {size} m shorter, all of them: {fit}. Is a constant missing in the robot file, \
+                 {cause}?"
+            ),
+        };
+        let expected = format!("{expected} Else seek the offsets of the winches, length_offset");
+        CalibrationError::Column { column: all_lengths(cables), expected }
+    }
+}
+
+/// Names of the columns of lengths.
+fn all_lengths(cables: usize) -> String {
+    format!("{} to {}", Quantity::Length(0), Quantity::Length(cables - 1))
+}
+
 /// Compares the lengths with those of straight cables at the measured poses, which `pose` says. Sag, strain
-/// and the errors that are sought change these by far less than swapped columns.
+/// and the errors that are sought change these by far less than swapped columns. The answer is the constant
+/// that explains the differences, if one does: positions in another frame may do so, too.
 ///
 /// # Errors
 /// [`CalibrationError::Column`] naming two columns that fit far better the other way round, one that does
@@ -55,10 +92,10 @@ pub(crate) fn check_columns(
     robot: &Robot,
     rows: &[Row],
     pose: impl Fn(&Row) -> Option<Pose>,
-) -> Result<(), CalibrationError> {
+) -> Result<Option<MissingLength>, CalibrationError> {
     let rows: Vec<_> = rows.iter().filter_map(|row| Placed::of(row, pose(row)?)).collect();
     if rows.is_empty() {
-        return Ok(());
+        return Ok(None);
     }
     let placed = PlacedRows { robot, size: size(robot), rows };
     let misfit = placed.mean_misfit(ORDER, SIGNS);
@@ -67,7 +104,8 @@ pub(crate) fn check_columns(
     placed.check_rotations(misfit)?;
     placed.check_leads(misfit)?;
     placed.check_order_of_lengths(misfit)?;
-    placed.check_lengths()
+    placed.check_lengths()?;
+    Ok(placed.constant(misfit))
 }
 
 /// A row with a measured position and lengths.
@@ -186,12 +224,28 @@ impl PlacedRows<'_> {
         if longest == 0.0 || misfit < SEEN * self.size || without > LEFT * LEFT * misfit {
             return Ok(());
         }
-        let name = |i| Quantity::Length(i).to_string();
         let expected = format!(
             "lengths from the winches on, with the lead of each cable, up to {longest} m: lengths and positions \
              would then fit"
         );
-        Err(CalibrationError::Column { column: format!("{} to {}", name(0), name(n - 1)), expected })
+        Err(CalibrationError::Column { column: all_lengths(n), expected })
+    }
+
+    /// The constant that explains the misfit of all lengths, if it is more than their sag and stretch.
+    fn constant(&self, misfit: f64) -> Option<MissingLength> {
+        let cables = self.robot.cables.len();
+        let short = |of: &Placed, i: usize| self.straight(of, of.position, i) - of.lengths[i];
+        let each = self.rows.iter().flat_map(|of| (0..cables).map(move |i| short(of, i)));
+        let each: Vec<f64> = each.collect();
+        let missing = median(each.clone());
+        let square = each.iter().map(|short| (short - missing).powi(2)).sum::<f64>();
+        let left = (square / each.len() as f64).sqrt();
+        // Soft cables are shorter than straight ones by their stretch.
+        let stretch =
+            |i: usize| self.robot.cable(i).strain(self.robot.limits(i).max) * self.rows[0].lengths[i];
+        let stretch = (0..cables).map(stretch).fold(SEEN * self.size, f64::max);
+        let explains = missing.abs() > stretch && left < LEFT * LEFT * misfit;
+        explains.then_some(MissingLength { missing, left, cables })
     }
 
     /// Refuses two columns of lengths that are swapped.

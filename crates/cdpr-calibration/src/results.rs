@@ -116,6 +116,7 @@ impl Fit {
         let by_open = (open.ncols() > 0).then(|| std_of(&self.robot, &(&open * open.transpose()))).flatten();
         let is_open = by_open.zip(after).is_some_and(|(open, after)| open > NEGLIGIBLE * after);
         let unknown = || self.estimates.iter().filter(|of| of.std.is_none()).map(|of| of.name.clone());
+        let length_constant = self.length_constant();
         let mut summary = CalibrationSummary {
             robot: campaign.robot.name.clone(),
             version: env!("CARGO_PKG_VERSION"),
@@ -130,7 +131,8 @@ impl Fit {
             not_identifiable: self.unidentifiable.iter().map(|of| of.weights.clone()).collect(),
             residuals: self.by_sensor(predicted),
             outliers: if *noise_is_stated { self.outlier_summaries() } else { Vec::new() },
-            row_apart: self.row_apart(),
+            row_apart: self.row_apart().filter(|_| length_constant.is_none()),
+            length_constant,
             trends: if *noise_is_stated { self.trends() } else { Vec::new() },
             splits: self.splits(),
             workspace: if relative || is_open { None } else { map() },

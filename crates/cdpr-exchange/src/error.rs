@@ -91,7 +91,7 @@ pub enum ExchangeError {
     #[error("the files make no robot: {0}")]
     Robot(RobotError),
     /// A robot with something for which the other format has no place.
-    #[error("{field} is {value}: the format has no place for it, expected {expected}")]
+    #[error("{field} is {value}: the format has no place for it, expected {expected}; {}", instead(takers))]
     NoPlace {
         /// Path of the field in the robot file.
         field: String,
@@ -99,13 +99,9 @@ pub enum ExchangeError {
         value: String,
         /// What the format has a place for.
         expected: &'static str,
+        /// Names of the formats that take this robot at its pose.
+        takers: Vec<&'static str>,
     },
-    /// A platform with fewer than six motions, for a format of bodies.
-    #[error(
-        "plane or platform.point holds motions: the file would have a body with all six; klipper, rrf, maslow and table \
-         take such robots"
-    )]
-    HeldMotions,
     /// The coordinates of a table make no grid, or too large a one.
     #[error("{field} is {value}: expected {expected}")]
     Grid {
@@ -127,6 +123,22 @@ pub enum ExchangeError {
     /// The pose of the exported file is not held.
     #[error(transparent)]
     Pose(#[from] StaticsError),
+}
+
+impl ExchangeError {
+    /// A field for which a format has no place. [`crate::export`] adds the formats that take the robot.
+    pub(crate) fn no_place(field: impl Into<String>, value: impl ToString, expected: &'static str) -> Self {
+        Self::NoPlace { field: field.into(), value: value.to_string(), expected, takers: Vec::new() }
+    }
+}
+
+/// Which formats take a robot that another one refuses.
+pub fn instead(takers: &[&str]) -> String {
+    match takers {
+        [] => "no other format takes this robot at this pose".to_owned(),
+        [one] => format!("{one} takes this robot at this pose"),
+        [others @ .., last] => format!("{} and {last} take this robot at this pose", others.join(", ")),
+    }
 }
 
 /// The formats that are read.

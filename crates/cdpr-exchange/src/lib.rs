@@ -17,8 +17,8 @@ mod read;
 mod write;
 
 pub use draft::{ImportOptions, Imported, Note, NoteKind};
-pub use error::{ExchangeError, FORMATS, Lacking};
+pub use error::{ExchangeError, FORMATS, Lacking, instead};
 pub use read::{ForeignFile, import};
 pub use write::scene::Exported;
 pub use write::table::{CorrectionTable, TableErrors, correction_table};
-pub use write::{Target, export};
+pub use write::{Target, export, takers};

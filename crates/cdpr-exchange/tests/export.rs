@@ -158,5 +158,6 @@ fn what_a_format_has_no_place_for_is_refused_by_its_field() {
     assert!(maslow.starts_with(expected), "{maslow}");
     let point = Robot::from_json(include_str!("../../../docs/how-to/planner/stadium.json")).unwrap();
     let caspr = words(&point, Target::Caspr);
-    assert!(caspr.ends_with("expected a body; klipper, rrf and table take point masses"), "{caspr}");
+    let named = "expected a body; klipper, rrf and table take this robot at this pose";
+    assert!(caspr.ends_with(named), "{caspr}");
 }

@@ -70,18 +70,9 @@ pub(crate) fn export_robot(
     pose: Numbers,
     to: &str,
 ) -> Answer<(Vec<NamedText>, Vec<String>)> {
-    let target = match to {
-        "mjcf" => Target::Mjcf,
-        "caspr" => Target::Caspr,
-        "moorpy" => Target::Moorpy,
-        "moordyn" => Target::Moordyn,
-        "klipper" => Target::Klipper,
-        "rrf" => Target::Rrf,
-        "maslow" => Target::Maslow,
-        _ => {
-            let expected = "expected mjcf, caspr, moorpy, moordyn, klipper, rrf or maslow";
-            return Err(Raised::Input(format!("to is {to:?}: {expected}")));
-        }
+    let Some((target, _)) = Target::NAMED.into_iter().find(|(_, name)| *name == to) else {
+        let names = Target::NAMED.map(|(_, name)| name).join(", ");
+        return Err(Raised::Input(format!("to is {to:?}: expected one of {names}")));
     };
     let pose = single(&pose, &robot.robot)?;
     let Exported { files, notes } = run(py, |_| cdpr_exchange::export(&robot.robot, &pose, target))??;

@@ -158,6 +158,9 @@ def test_the_derivatives_are_those_of_the_command_line(caroca, caroca_file):
     same(found.magnitude_right, found.magnitude)
     same(found.least_stiffness[:count], printed["least_stiffness"])
     assert numpy.isnan(found.frequency).all(), "CAROCA has no inertia"
+    unloaded = caroca.derivatives(TURNED)
+    same(unloaded.lengths, found.lengths)
+    assert numpy.isnan(unloaded.magnitude).all() and not unloaded.displacement.any()
 
 
 def test_left_and_right_derivatives_of_cables_on_their_least_tension_differ(caroca):

@@ -20,6 +20,6 @@ pub use file::{reference, robot};
 pub use layout::FRAME;
 pub use typed::{
     angles, in_ground, lengths, lengths_at, load, mass, modulus, on_platform, out_of_plane, position,
-    quaternion, wrench,
+    quaternion, times, wrench,
 };
 pub use uncertain::{deviation, farthest, noise};

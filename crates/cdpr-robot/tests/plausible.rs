@@ -134,3 +134,20 @@ fn what_the_guide_of_a_planar_robot_takes_up_is_questioned() {
         assert_eq!(moment.contains("whose guide takes it up"), k != normal, "{moment}");
     }
 }
+
+#[test]
+fn times_of_a_path_increase_and_have_no_gap_in_which_the_platform_moves() {
+    let poses = |x: &[f64]| x.iter().map(|x| Pose::at(*x, 0.0, 2.0)).collect::<Vec<_>>();
+    let doubt = |times: &[f64], x: &[f64]| plausible::times("t_s", &[2, 3, 4, 5, 7, 8], times, &poses(x));
+    let even = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5];
+    assert_eq!(doubt(&even, &even), None);
+    // It stands still for 10 s.
+    let late = [0.0, 0.1, 0.2, 0.3, 10.3, 10.4];
+    assert_eq!(doubt(&late, &[0.0, 0.1, 0.2, 0.3, 0.3, 0.4]), None);
+    let gap = doubt(&late, &late).unwrap();
+    assert_eq!((gap.quantity.as_str(), gap.value.as_str()), ("line 7: t_s", "10.3 s"));
+    assert!(gap.why.contains("10.0 s earlier, where 0.100 s are usual"), "{gap}");
+    for wrong in [[0.0, 0.1, 0.2, 0.1, 0.4, 0.5], [0.0, 0.1, 0.2, 0.2, 0.3, 0.4]] {
+        assert_eq!(doubt(&wrong, &even).unwrap().quantity, "line 5: t_s");
+    }
+}

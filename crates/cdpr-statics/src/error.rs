@@ -316,6 +316,7 @@ impl StaticsError {
             Self::Cable { source: CableError::Overstrained { .. }, .. } | Self::Overstrained { .. } => {
                 "cable_overstrained"
             }
+            Self::Cable { source: CableError::AtPulley { .. }, .. } => "cable_at_its_pulley",
             Self::Cable { .. } => "cable",
             Self::Invalid { .. } => "invalid_input",
             Self::NoRest { nearest: RestFault::TurnedOver { is_stable: false, .. }, .. } => "unstable",

@@ -227,3 +227,16 @@ fn no_radius_and_no_lead_change_no_bit() {
     assert_eq!(a.displacement(), b.displacement());
     assert_eq!(a.lengths, b.lengths);
 }
+
+#[test]
+fn an_anchor_point_next_to_the_axis_of_its_pulley_is_refused_by_the_distance() {
+    let robot = Robot::from_library("ipanema-3").unwrap();
+    let below = robot.cables[0].exit_point - robot.cables[0].anchor_point;
+    let error = inverse(&robot, &Pose::at(below.x, below.y, 1.0), &Load::none()).unwrap_err();
+    assert_eq!(error.kind(), "cable_at_its_pulley", "{error}");
+    let said = error.to_string();
+    assert!(
+        said.starts_with("cable 1: its anchor point is 0") && said.contains("m from the swivel axis"),
+        "{said}"
+    );
+}

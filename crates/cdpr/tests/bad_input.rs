@@ -114,7 +114,7 @@ const CASES: [(&str, &str); 97] = [
     ("negative payload", "deflection robot.json --pose 0,0,1.75 --payload -5"),
     ("no load", "deflection robot.json --pose 0,0,1.75"),
     ("force with two components", "inverse robot.json --pose 0,0,1.75 --force 1,2"),
-    ("derivative of nothing", "derivatives robot.json --pose 0,0,1.75 --payload 0"),
+    ("uncertainty of no displacement", "derivatives robot.json --pose 0,0,1.75 --uncertainty mass=0.5"),
     ("wrong number of lengths", "direct robot.json --lengths 4,4,4"),
     ("negative length", "direct robot.json --lengths 4.44,4.54,-4.36,4.26,4.26,4.36,4.54,4.44"),
     ("lengths that are no numbers", "direct robot.json --lengths long"),

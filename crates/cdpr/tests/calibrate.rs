@@ -1,6 +1,6 @@
 //! `cdpr calibrate fit` as a user meets it.
 
-use crate::common::{answered, cdpr, data_path, unwrapped};
+use crate::common::{answered, cdpr, data_path, text, unwrapped};
 use serde_json::Value;
 use std::path::Path;
 use tempfile::TempDir;
@@ -270,6 +270,59 @@ fn swapped_columns_and_rows_of_other_poses_are_warned_of() {
     }
 }
 
+#[test]
+fn a_loss_by_which_outliers_count_less_is_proposed_once() {
+    let model = data_path("calibration/caroca-tolerances.json");
+    let (folder, path) = campaign();
+    changed(&path, |cells| {
+        for (row, off) in [(7, 0.3), (12, 0.1)] {
+            cells[row][8] = (cells[row][8].parse::<f64>().unwrap() + off).to_string();
+        }
+    });
+    let out = folder.path().join("out").display().to_string();
+    let fit = ["calibrate", "fit", "caroca", &path, "--uncertainty", &model, "--noise", NOISE, "--out", &out];
+    for (loss, proposed) in [
+        ("loss=huber", "Leave it out, or let it count still less: --with loss=cauchy."),
+        ("loss=cauchy", "Leave it out."),
+    ] {
+        let said =
+            text(cdpr(&[&fit[..], &["--overwrite", "--with", loss]].concat()).stdout).replace('\n', " ");
+        assert!(said.contains("line 8 (x_m) makes") && said.contains(proposed), "{said}");
+        assert!(!said.contains(loss), "{said}");
+    }
+}
+
+/// A constant that all lengths lack, or that the robot file lacks, such as a lead.
+#[test]
+fn one_constant_of_all_lengths_is_named_as_one() {
+    let model = data_path("calibration/caroca-tolerances.json");
+    let longer_by = |metres: f64| {
+        let (folder, path) = campaign();
+        changed(&path, |cells| {
+            for cell in cells[1..].iter_mut().flat_map(|line| &mut line[..8]) {
+                *cell = (cell.parse::<f64>().unwrap() + metres).to_string();
+            }
+        });
+        let output =
+            calibrate(&path, &folder.path().join("out"), &["--uncertainty", &model, "--noise", NOISE]);
+        (output.status.code(), unwrapped(output.stderr), text(output.stdout))
+    };
+    for (metres, words) in [
+        (-0.5, "l1_m to l8_m: expected lengths that are 0.501 m longer, all of them"),
+        (0.5, "l1_m to l8_m: expected lengths that are 0.499 m shorter, all of them"),
+    ] {
+        let (code, error, _) = longer_by(metres);
+        assert!(code == Some(1) && error.contains(words) && error.contains("lead"), "{error}");
+    }
+    let (code, error, found) = longer_by(-0.05);
+    assert_eq!(code, Some(3), "{error}");
+    let summary: Value = serde_json::from_str(&found).unwrap();
+    let constant = &summary["length_constant"];
+    assert!((constant["metres"].as_f64().unwrap() + 0.05).abs() < 5e-3, "{constant}");
+    assert!(constant["share"].as_f64().unwrap() > 0.9, "{constant}");
+    assert!(summary["warnings"].to_string().contains("one constant error of all lengths, -4"), "{summary}");
+}
+
 /// Lengths of incremental encoders, each with a constant error.
 #[test]
 fn constant_errors_of_lengths_are_named_whatever_is_sought() {
@@ -286,7 +339,7 @@ fn constant_errors_of_lengths_are_named_whatever_is_sought() {
         let fit = ["calibrate", "fit", "caroca", &table, "--noise", NOISE, "--overwrite", "--out"];
         let output = cdpr(&[&fit[..], &[&path("out")], sought].concat());
         assert_eq!(output.status.code(), Some(3));
-        let said = crate::common::text(output.stdout).replace('\n', " ");
+        let said = text(output.stdout).replace('\n', " ");
         assert!(said.contains(words) && said.contains("fit length_offset, too"), "{said}");
     }
 }

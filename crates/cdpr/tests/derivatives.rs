@@ -70,6 +70,41 @@ fn a_platform_with_inertia_has_derivatives_of_its_frequency() {
 }
 
 #[test]
+fn without_a_load_there_are_all_derivatives_but_those_of_the_displacement() {
+    let poses = [
+        ("robots/cogiro.json", "1,0.5,2", Pose::at(1.0, 0.5, 2.0)),
+        ("robots/caroca.json", "0,0,1.75", Pose::at(0.0, 0.0, 1.75)),
+    ];
+    for (name, at, pose) in poses {
+        let robot = Robot::from_json(&data_text(name)).unwrap();
+        let found = derivatives(&robot, &pose, &Load::none()).unwrap();
+        let output = run(&data(name), &["--pose", at, "--format", "json"]);
+        assert_eq!(output.status.code(), Some(0));
+        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert!(json.get("magnitude_mm").is_none() && json.get("deflection_mm").is_none());
+        let why = "the displacement and its derivatives need a load: --payload, --force or --moment";
+        assert_eq!(json["without"][0], why);
+        let (_, stiffness) = found.least_stiffness(&robot, &Load::none()).unwrap();
+        for (j, slope) in stiffness.iter().take(found.inputs.parameters.len()).enumerate() {
+            assert_eq!(json["least_stiffness"][j].as_f64(), Some(*slope));
+            assert_eq!(json["unstrained_lengths"][j][0].as_f64(), Some(found.lengths[(0, j)]));
+        }
+        let shown = unwrapped(run(&data(name), &["--pose", at]).stdout);
+        assert!(shown.contains(why) && !shown.contains("|dp|"), "{shown}");
+        // The parameters that change the lowest stiffness most come first.
+        let first = shown.lines().find(|line| line.starts_with('\u{2502}')).unwrap();
+        assert!(first.contains("d stiffness") && first.contains("largest dL [mm]"), "{shown}");
+        let row = text(run(&data(name), &["--pose", at, "--format", "csv"]).stdout);
+        let mut lines = csv::Reader::from_reader(row.as_bytes());
+        let names = lines.headers().unwrap().clone();
+        let cells = lines.records().next().unwrap().unwrap();
+        let cell = |column: &str| &cells[names.iter().position(|name| name == column).unwrap()];
+        assert_eq!((cell("magnitude_mm/mass"), cell("dz_mm/mass")), ("", ""));
+        assert_eq!(cell("least_stiffness/mass").parse::<f64>().unwrap(), stiffness[0]);
+    }
+}
+
+#[test]
 fn the_amplitude_of_a_shaken_platform_has_derivatives_where_they_are_asked_for() {
     let (name, pose, load) = ("robots/cogiro.json", Pose::at(1.0, 0.5, 2.0), Load::payload(50.0));
     let robot = Robot::from_json(&data_text(name)).unwrap();
@@ -192,10 +227,9 @@ fn bad_input_is_named_with_what_would_be_right() {
         (caroca(), with(["--payload", "inf"]), "`inf` is not a finite number"),
         (
             caroca(),
-            with(["--payload", "0"]),
-            "error: nothing displaces the platform: expected --payload, --force or --moment",
+            with(["--uncertainty", "mass=1"]),
+            "error: --uncertainty: expected --payload, --force or --moment, whose displacement is uncertain",
         ),
-        (caroca(), pose.to_vec(), "expected --payload, --force or --moment"),
         (
             caroca(),
             vec!["--pose", "0,0", "--payload", "50"],

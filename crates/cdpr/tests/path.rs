@@ -176,3 +176,35 @@ fn a_single_pose_is_no_path_and_no_option_of_it() {
     let said = unwrapped(refused.stderr);
     assert!(refused.status.code() == Some(2) && said.contains("expected --poses FILE"), "{said}");
 }
+
+/// The time of a planner, in any unit, with a gap or in another order.
+#[test]
+fn a_gap_in_the_times_of_a_planner_is_questioned() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("plan.csv").display().to_string();
+    let call = |command: &str, header: &str, lines: &[&str]| {
+        std::fs::write(&path, format!("{header}\n{}\n", lines.join("\n"))).unwrap();
+        let further: &[&str] = if command == "inverse" { &["--with", "path"] } else { &[] };
+        let output = cdpr(&[&[command, "cogiro", "--poses", &path, "--format", "csv"], further].concat());
+        (output.status.code(), unwrapped(output.stderr))
+    };
+    let even = ["0,0,0,2", "100,0.01,0,2", "200,0.02,0,2", "300,0.03,0,2", "400,0.04,0,2"];
+    let mut gap = even;
+    gap[4] = "3300,0.5,0,2";
+    for command in ["path", "inverse"] {
+        let (code, said) = call(command, "t_ms,x_m,y_m,z_m", &even);
+        assert!(code == Some(0) && !said.contains("question"), "{said}");
+        for header in ["t_ms,x_m,y_m,z_m", "Time [ms],x_m,y_m,z_m"] {
+            let (code, said) = call(command, header, &gap);
+            assert!(
+                code == Some(3) && said.contains("is 3.3 s: the line before is 3.00 s earlier"),
+                "{said}"
+            );
+        }
+    }
+    let (code, said) = call("path", "timestamp,x_m,y_m,z_m", &[even[1], even[0]]);
+    assert!(
+        code == Some(3) && said.contains("line 3: timestamp is 0 s: the line before has 100 s"),
+        "{said}"
+    );
+}

@@ -175,6 +175,7 @@ fn typed(error: &CableError, inputs: &[f64]) {
                 "{field} {value:e}"
             );
         }
+        CableError::AtPulley { distance } => assert!(distance.is_finite() && *distance >= 0.0, "{error}"),
         CableError::TensionTooSmall { tension, least } => {
             assert!(tension.is_finite() && least.is_finite(), "{error}");
             assert!(least >= tension, "{least:e} is refused for being more than {tension:e}");

@@ -3,7 +3,7 @@
 
 use super::{Findings, Severity};
 use crate::clearance::{HangingCables, TOUCHING};
-use cdpr_robot::{Pose, Robot, Vector3, frame};
+use cdpr_robot::{Plane, Pose, Robot, Vector3, frame};
 use cdpr_statics::{DirectProblem, DirectStart, InverseSolution, Load, Unstable, inverse};
 
 /// Weight of the cables, as a share of the platform's weight, beyond which sag shapes the robot.
@@ -130,19 +130,26 @@ impl Findings<'_> {
 /// as near as possible to the middle of their heights. The platform stays above `ground_z`; without it, under
 /// exit points that are all above z = 0, above this floor.
 pub(super) fn held(robot: &Robot) -> Option<(Pose, InverseSolution)> {
-    if let Some(plane) = robot.plane {
-        return held_in_plane(robot, plane.normal());
+    let sides = frame(robot);
+    let size = sides.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+    let mut middle = Vector3::from(sides.map(|[low, high]| 0.5 * (low + high)));
+    let normal = robot.plane.map(Plane::normal);
+    if let Some(k) = normal {
+        let heights = robot.cables.iter().map(|cable| cable.exit_point[k] - cable.anchor_point[k]);
+        middle[k] = heights.sum::<f64>() / robot.cables.len() as f64;
     }
-    let [[x_low, x_high], [y_low, y_high], [z_low, z_high]] = frame(robot);
-    let size = (x_high - x_low).max(y_high - y_low).max(z_high - z_low);
-    let flat = z_high - z_low <= 0.1 * size;
-    let floor = robot.floor();
-    let middle = if flat { (z_low - 0.5 * size).max(0.5 * (floor + z_low)) } else { 0.5 * (z_low + z_high) };
+    // Upwards and downwards, or along y where the plane is level.
+    let (along, floor) = if normal == Some(2) { (1, f64::NEG_INFINITY) } else { (2, robot.floor()) };
+    let [low, high] = sides[along];
+    if along == 2 && high - low <= 0.1 * size {
+        middle.z = (low - 0.5 * size).max(0.5 * (floor + low));
+    }
     (0..=20).find_map(|k| {
-        let offset = 0.05 * size * f64::from((k + 1) / 2) * if k % 2 == 0 { 1.0 } else { -1.0 };
-        let z = Some(middle + offset).filter(|z| *z >= floor)?;
-        let pose = Pose::at(0.5 * (x_low + x_high), 0.5 * (y_low + y_high), z);
-        inverse(robot, &pose, &Load::none()).ok().map(|solution| (pose, solution))
+        let mut place = middle;
+        place[along] += 0.05 * size * f64::from((k + 1) / 2) * if k % 2 == 0 { 1.0 } else { -1.0 };
+        let pose = Pose::at(place.x, place.y, place.z);
+        let is_above = place[along] >= floor;
+        is_above.then(|| inverse(robot, &pose, &Load::none()).ok()).flatten().map(|solution| (pose, solution))
     })
 }
 
@@ -161,28 +168,23 @@ pub(super) fn remedy_for_few(robot: &Robot) -> String {
     }
 }
 
-/// The same of a platform that moves in a plane: about the middle of the exit points, moved along the plane.
-fn held_in_plane(robot: &Robot, normal: usize) -> Option<(Pose, InverseSolution)> {
-    let sides = frame(robot);
-    let mut middle = Vector3::from(sides.map(|[low, high]| 0.5 * (low + high)));
-    let size = sides.map(|[low, high]| high - low);
-    let heights = robot.cables.iter().map(|cable| cable.exit_point[normal] - cable.anchor_point[normal]);
-    middle[normal] = heights.sum::<f64>() / robot.cables.len() as f64;
-    // Upwards and downwards, or along y where the plane is level.
-    let along = if normal == 2 { 1 } else { 2 };
-    (0..=20).find_map(|k| {
-        let offset = 0.05 * size[along] * f64::from((k + 1) / 2) * if k % 2 == 0 { 1.0 } else { -1.0 };
-        let mut place = middle;
-        place[along] += offset;
-        let pose = Pose::at(place.x, place.y, place.z);
-        inverse(robot, &pose, &Load::none()).ok().map(|solution| (pose, solution))
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use cdpr_robot::library;
+
+    #[test]
+    fn a_planar_robot_below_exits_of_one_height_is_held() {
+        let text = r#"{ "format": "cdpr-robot/1", "name": "Two cables", "gravity": 9.81, "plane": "xz",
+            "platform": { "mass": 5, "center_of_mass": [0, 0, 0], "point": true },
+            "cable": { "diameter": 0.002, "youngs_modulus": 1e11, "linear_density": 0.015 },
+            "tension_limits": { "min": 1, "max": 500 },
+            "cables": [{ "exit_point": [-2, 0, 3], "anchor_point": [0, 0, 0] },
+                { "exit_point": [2, 0, 3], "anchor_point": [0, 0, 0] }] }"#;
+        let (pose, solution) = held(&Robot::from_json(text).unwrap()).unwrap();
+        assert_eq!(pose.position.xy(), Vector3::zeros().xy());
+        assert!((0.0..3.0).contains(&pose.position.z) && solution.tensions[0] > 1.0, "{pose:?}");
+    }
 
     #[test]
     fn the_pose_of_a_planar_robot_is_in_its_plane() {

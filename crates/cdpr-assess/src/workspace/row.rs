@@ -6,7 +6,7 @@ use crate::safety::factored::Situation;
 use crate::safety::winds::Winds;
 use crate::workspace::breaks::AfterBreaks;
 use crate::workspace::question::Workspace;
-use crate::workspace::results::{BEYOND_LIMITS, Dominant, HELD, WorkspacePose, failure};
+use crate::workspace::results::{BEYOND_LIMITS, Dominant, HELD, WorkspacePose};
 use cdpr_statics::limits::in_words;
 use cdpr_statics::{Load, StaticsError};
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -217,8 +217,7 @@ impl WorkspaceRow {
 
 /// The status of a failure, and why.
 fn said(error: &StaticsError) -> (&'static str, Option<String>) {
-    let (kind, reason) = failure(error);
-    (kind, Some(reason))
+    (error.kind(), Some(error.to_string()))
 }
 
 /// One figure of a capacity.

@@ -4,7 +4,7 @@ use crate::boundary::Boundary;
 use crate::safety::factors::PartialFactors;
 use crate::safety::winds::AnyWeather;
 use crate::workspace::question::{Shaking, Way, Workspace};
-use crate::workspace::results::{HELD, WorkspacePose, failure};
+use crate::workspace::results::{HELD, WorkspacePose};
 use crate::workspace::row::{self, WorkspaceRow};
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::weather::Weather;
@@ -331,7 +331,7 @@ fn left_out(poses: &[WorkspacePose]) -> BTreeMap<String, usize> {
                 Some(found) => format!("beyond_limits: cable {}, {}", found.cable + 1, found.limit.name()),
                 None => continue,
             },
-            Err(error) => failure(error).0.to_owned(),
+            Err(error) => error.kind().to_owned(),
         };
         *counts.entry(why).or_insert(0) += 1;
     }

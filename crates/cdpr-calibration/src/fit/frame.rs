@@ -3,6 +3,7 @@
 use crate::campaign::Quantity;
 use crate::error::CalibrationError;
 use crate::fit::problem::Problem;
+use crate::plausible::MissingLength;
 use crate::sensor_error::size;
 use cdpr_robot::{Axis, Pose, Rotation3, Vector3};
 use nalgebra::Matrix3;
@@ -77,12 +78,17 @@ impl Problem<'_> {
     }
 
     /// Refuses positions of rows that are not those of the lengths, but are after a rigid motion: they are in
-    /// the frame of a tracker. So it does where one coordinate has the other sign.
+    /// the frame of a tracker. So it does where one coordinate has the other sign, and where a constant in all
+    /// lengths explains more than any motion.
     ///
     /// # Errors
-    /// [`CalibrationError::Column`] that says which coordinate has the other sign, or how far the frame is
-    /// and by how much it is turned.
-    pub(super) fn check_frame(&self, rows: &[crate::Row]) -> Result<(), CalibrationError> {
+    /// [`CalibrationError::Column`] that says which coordinate has the other sign, how far the frame is and by
+    /// how much it is turned, or the constant.
+    pub(super) fn check_frame(
+        &self,
+        rows: &[crate::Row],
+        constant: Option<MissingLength>,
+    ) -> Result<(), CalibrationError> {
         let x = vec![0.0; self.model.unknowns.all.len()];
         let far = FAR * size(self.model.robot);
         let read = |row: &&crate::Row| row.lengths.is_some() && self.model.measured_pose(row).is_some();
@@ -101,6 +107,10 @@ impl Problem<'_> {
             RigidMotion::between(&pairs)
         };
         let found: Vec<RigidMotion> = SIGNS.into_iter().filter_map(with_signs).collect();
+        let left = found.iter().map(|of| of.misfit[1]).fold(f64::INFINITY, f64::min);
+        if let Some(constant) = constant.filter(|constant| constant.left < left) {
+            return Err(constant.refusal());
+        }
         let [as_read, mirrored @ ..] = &found[..] else { return Ok(()) };
         let [before, after] = as_read.misfit;
         if before < far {

@@ -46,6 +46,17 @@ pub(crate) struct Linearized {
     pub(super) cost: f64,
 }
 
+impl Linearized {
+    /// The same rows with the unknowns from `first` on as one, which moves them all alike.
+    pub(super) fn with_last_together(&self, first: usize) -> Self {
+        let count = self.data.ncols() - 1;
+        let mut data = self.data.columns(0, first + 2).into_owned();
+        data.set_column(first, &self.data.columns(first, count - first).column_sum());
+        data.set_column(first + 1, &self.data.column(count));
+        Self { data, rows: Vec::new(), motions: Vec::new(), cost: self.cost }
+    }
+}
+
 /// Where a search has ended.
 pub(super) struct Found {
     pub(super) state: State,

@@ -130,6 +130,9 @@ pub struct CalibrationSummary {
     /// The row that is far from all others, where there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub row_apart: Option<RowApart>,
+    /// One constant error of all lengths that would explain a chi-square that is unlikely.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_constant: Option<LengthConstant>,
     /// Clear trends of residuals against place and load.
     pub trends: Vec<Trend>,
     /// Variances of means over consecutive rows.
@@ -153,6 +156,15 @@ pub struct CalibrationSummary {
     pub starts: [usize; 2],
     /// What is odd about the result, a sentence each.
     pub warnings: Vec<String>,
+}
+
+/// One constant error of all lengths, by a linearization.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LengthConstant {
+    /// Measured less right lengths [m].
+    pub metres: f64,
+    /// Share of chi-square that it explains.
+    pub share: f64,
 }
 
 impl CalibrationSummary {

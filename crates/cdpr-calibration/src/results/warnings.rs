@@ -3,7 +3,7 @@
 use crate::fitted::{Fit, FitStatus, UNLIKELY, chance};
 use crate::model::held::{HeldReading, farthest_held};
 use crate::results::patterns::Trend;
-use crate::results::summary::{CalibrationSummary, Campaign, RowApart};
+use crate::results::summary::{CalibrationSummary, Campaign, LengthConstant, RowApart};
 use crate::sensor_error::SensorError;
 use cdpr_robot::{counted, significant};
 use std::collections::BTreeMap;
@@ -70,7 +70,8 @@ impl Fit {
                 "line {line} alone makes {:.0} % of the sum of squares: it may be of another robot or pose",
                 100.0 * share
             ));
-        } else if let Some((column, rms)) = self.worst_column() {
+        } else if let Some((column, rms)) = self.worst_column().filter(|_| summary.length_constant.is_none())
+        {
             warnings.push(format!(
                 "column {column} is off by {rms:.1} standard deviations, many times more than the others \
                  of its kind: columns may be swapped, its unit or sign may be wrong"
@@ -103,8 +104,16 @@ impl Fit {
         if self.unknowns.sensor(SensorError::LengthOffset).is_some() {
             return None;
         }
-        let remedy = "incremental encoders have constant errors of lengths: fit length_offset, too";
         let text = |metres: f64| significant(1e3 * metres, 2);
+        if let Some(LengthConstant { metres, share }) = summary.length_constant {
+            return Some(format!(
+                "one constant error of all lengths, {} mm, explains {:.0} % of chi-square: correct the lengths, or \
+                 fit length_offset, too",
+                text(metres),
+                100.0 * share
+            ));
+        }
+        let remedy = "incremental encoders have constant errors of lengths: fit length_offset, too";
         if let [(greatest, mean), others @ ..] = &self.mean_residuals()[..] {
             let others = match others.len() {
                 0 => String::new(),
@@ -125,6 +134,13 @@ impl Fit {
             text(offset),
             cable + 1
         ))
+    }
+
+    /// The one constant error of all lengths that explains an unlikely chi-square.
+    pub(super) fn length_constant(&self) -> Option<LengthConstant> {
+        let offsets = self.length_offsets.as_ref()?;
+        let metres = offsets.explain_together(self.chi_square, self.degrees_of_freedom)?;
+        Some(LengthConstant { metres, share: offsets.common.0 / self.chi_square })
     }
 
     /// The row with most of the sum of squares, if that is far more than its share.

@@ -10,7 +10,7 @@
 //! with anchor points a_i and exit points b_i, the span of Eq. (1).
 
 use crate::error::ExchangeError;
-use crate::write::scene::{FROM_POINTS, unplaced};
+use crate::write::scene::{check_from_points, unplaced};
 use cdpr_robot::{Pose, Robot, Vector3, significant};
 use cdpr_statics::{Load, inverse};
 
@@ -26,18 +26,7 @@ impl Anchors {
     /// Those of a robot that is held at a pose. Pulleys and leads are refused: the distance is not the length
     /// with them.
     pub(crate) fn new(robot: &Robot, pose: &Pose) -> Result<Self, ExchangeError> {
-        for (i, cable) in robot.cables.iter().enumerate() {
-            let no_place = |field: &str, value: String| {
-                let field = format!("cables[{i}].{field}");
-                Err(ExchangeError::NoPlace { field, value, expected: FROM_POINTS })
-            };
-            if let Some(pulley) = cable.pulley.filter(|pulley| pulley.radius > 0.0) {
-                return no_place("pulley", format!("a pulley of radius {} m", pulley.radius));
-            }
-            if cable.lead > 0.0 {
-                return no_place("lead", format!("{} m", cable.lead));
-            }
-        }
+        check_from_points(robot)?;
         let lengths = inverse(robot, pose, &Load::none())?.lengths;
         let points = anchors(robot, pose);
         let mut notes = unplaced(robot);

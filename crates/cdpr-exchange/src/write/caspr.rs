@@ -7,11 +7,7 @@ use std::fmt::Write;
 
 pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeError> {
     if robot.platform.point {
-        return Err(ExchangeError::NoPlace {
-            field: "platform.point".to_owned(),
-            value: "true".to_owned(),
-            expected: "a body; klipper, rrf and table take point masses",
-        });
+        return Err(ExchangeError::no_place("platform.point", true, "a body"));
     }
     let mut notes = unplaced(robot);
     if robot.ground_z.is_some() {

@@ -20,11 +20,7 @@ const LEAST: usize = 3;
 pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeError> {
     let count = robot.cables.len();
     if !(LEAST..=LETTERS.count()).contains(&count) {
-        return Err(ExchangeError::NoPlace {
-            field: "cables".to_owned(),
-            value: format!("a list of {count}"),
-            expected: "3 to 26 cables",
-        });
+        return Err(ExchangeError::no_place("cables", format!("a list of {count}"), "3 to 26 cables"));
     }
     let Anchors { points, mut notes } = Anchors::new(robot, pose)?;
     notes.push(

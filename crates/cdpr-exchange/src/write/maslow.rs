@@ -26,7 +26,7 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     let no_place = |field: &str, value: &str| {
         let expected = "a planar robot with four cables, from the corners of a frame with sides of 500 to \
                         5000 mm";
-        Err(ExchangeError::NoPlace { field: field.to_owned(), value: value.to_owned(), expected })
+        Err(ExchangeError::no_place(field, value, expected))
     };
     let Some(plane) = robot.plane else {
         return no_place("plane", "not given");

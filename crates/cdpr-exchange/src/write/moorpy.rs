@@ -25,7 +25,7 @@ pub(crate) fn write(robot: &Robot, pose: &Pose, reader: Reader) -> Result<Export
     let weightless = robot.cables.iter().position(|cable| cable.properties.linear_density == 0.0);
     if let (Reader::Moordyn, Some(i)) = (reader, weightless) {
         let field = format!("cables[{i}].linear_density");
-        return Err(ExchangeError::NoPlace { field, value: "0".to_owned(), expected: "cables with mass" });
+        return Err(ExchangeError::no_place(field, 0, "cables with mass"));
     }
     check_upright(robot)?;
     let lengths = inverse(robot, pose, &Load::none())?.lengths;

@@ -29,9 +29,7 @@ const SAME: f64 = 1e-9;
 pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeError> {
     let count = robot.cables.len();
     if !(LEAST..=LETTERS.len()).contains(&count) {
-        let value = format!("a list of {count}");
-        let expected = "3 to 5 cables";
-        return Err(ExchangeError::NoPlace { field: "cables".to_owned(), value, expected });
+        return Err(ExchangeError::no_place("cables", format!("a list of {count}"), "3 to 5 cables"));
     }
     check_upright(robot)?;
     check_one_stiffness(robot)?;
@@ -85,11 +83,10 @@ fn check_one_stiffness(robot: &Robot) -> Result<(), ExchangeError> {
     let first = stiffness(0);
     match (0..robot.cables.len()).find(|i| (stiffness(*i) - first).abs() > SAME * first) {
         None => Ok(()),
-        Some(i) => Err(ExchangeError::NoPlace {
-            field: format!("cables[{i}].cable"),
-            value: format!("EA = {} N, and {} N in cables[0]", stiffness(i), first),
-            expected: "one EA of all cables",
-        }),
+        Some(i) => {
+            let value = format!("EA = {} N, and {} N in cables[0]", stiffness(i), first);
+            Err(ExchangeError::no_place(format!("cables[{i}].cable"), value, "one EA of all cables"))
+        }
     }
 }
 

@@ -24,34 +24,39 @@ pub(crate) fn inertia(robot: &Robot, notes: &mut Vec<String>) -> Matrix3<f64> {
     })
 }
 
-/// What formats without pulleys and leads take.
-pub(crate) const FROM_POINTS: &str =
-    "cables that come from points; caspr takes pulleys, table pulleys and leads";
-
-/// Refuses what only cables between points in space can be written without.
-pub(crate) fn check_plain(robot: &Robot) -> Result<(), ExchangeError> {
-    let no_place =
-        |field: String, value: String, expected| Err(ExchangeError::NoPlace { field, value, expected });
-    if !robot.freedoms().are_all() {
-        return Err(ExchangeError::HeldMotions);
-    }
+/// Refuses pulleys and leads.
+pub(crate) fn check_from_points(robot: &Robot) -> Result<(), ExchangeError> {
+    const FROM_POINTS: &str = "cables that come from points";
     for (i, cable) in robot.cables.iter().enumerate() {
         if let Some(pulley) = cable.pulley.filter(|pulley| pulley.radius > 0.0) {
-            return no_place(
-                format!("cables[{i}].pulley"),
-                format!("a pulley of radius {} m", pulley.radius),
-                FROM_POINTS,
-            );
+            let value = format!("a pulley of radius {} m", pulley.radius);
+            return Err(ExchangeError::no_place(format!("cables[{i}].pulley"), value, FROM_POINTS));
         }
         if cable.lead > 0.0 {
-            return no_place(format!("cables[{i}].lead"), format!("{} m", cable.lead), FROM_POINTS);
-        }
-        if cable.properties.law.is_some() {
-            let expected = "cables with one modulus; caspr takes the EA at the pose";
-            return no_place(format!("cables[{i}].cable.law"), "an elastic law".to_owned(), expected);
+            let value = format!("{} m", cable.lead);
+            return Err(ExchangeError::no_place(format!("cables[{i}].lead"), value, FROM_POINTS));
         }
     }
     Ok(())
+}
+
+/// Refuses what only cables between points in space can be written without.
+pub(crate) fn check_plain(robot: &Robot) -> Result<(), ExchangeError> {
+    const BODY: &str = "a platform with all six motions";
+    if robot.platform.point {
+        return Err(ExchangeError::no_place("platform.point", true, BODY));
+    }
+    if let Some(plane) = robot.plane {
+        return Err(ExchangeError::no_place("plane", plane.name(), BODY));
+    }
+    check_from_points(robot)?;
+    match robot.cables.iter().position(|cable| cable.properties.law.is_some()) {
+        None => Ok(()),
+        Some(i) => {
+            let field = format!("cables[{i}].cable.law");
+            Err(ExchangeError::no_place(field, "an elastic law", "cables with one modulus"))
+        }
+    }
 }
 
 /// Refuses a gravity that is not along -z.
@@ -59,11 +64,7 @@ pub(crate) fn check_upright(robot: &Robot) -> Result<(), ExchangeError> {
     let down = robot.gravity.vector();
     if down.xy().norm() > 1e-9 * down.norm() {
         let value = format!("{:?}", down.as_slice());
-        return Err(ExchangeError::NoPlace {
-            field: "gravity".to_owned(),
-            value,
-            expected: "gravity along -z",
-        });
+        return Err(ExchangeError::no_place("gravity", value, "gravity along -z"));
     }
     Ok(())
 }

@@ -1116,7 +1116,8 @@ class Robot:
         payload : array_like, optional
             Mass added at the platform's centre of mass [kg].
         force, moment : array_like, optional
-            On the platform in the base frame, about P [N, N m], (3,).
+            On the platform in the base frame, about P [N, N m], (3,). Without a load there are no derivatives
+            of |dp|.
         free : sequence of str, optional
             Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
@@ -3298,7 +3299,7 @@ class Derivatives(Generic[_N, _B, _I, _W, _R]):
         """Inputs whose left and right derivatives differ, (k,)."""
     @property
     def magnitude(self) -> _Floats:
-        """Derivatives of |dp| [m per unit], (k,)."""
+        """Derivatives of |dp| [m per unit], (k,); NaN where nothing displaces the platform."""
     @property
     def displacement(self) -> _Floats:
         """Derivatives of dp [m per unit], (3, k)."""

@@ -81,6 +81,7 @@ impl Failure for CableError {
     fn kind(&self) -> &'static str {
         match self {
             Self::InvalidInput { .. } => "invalid_input",
+            Self::AtPulley { .. } => "cable_at_its_pulley",
             Self::TensionTooSmall { .. } => "tension_too_small",
             Self::Overstrained { .. } => "cable_overstrained",
             Self::NotConverged { .. } => "cable",

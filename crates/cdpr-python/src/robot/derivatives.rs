@@ -26,7 +26,7 @@ answer! {
         inputs: Vec<String>,
         /// Inputs whose left and right derivatives differ, (k,).
         one_sided: Py<PyAny>,
-        /// Derivatives of |dp| [m per unit], (k,).
+        /// Derivatives of |dp| [m per unit], (k,); NaN where nothing displaces the platform.
         magnitude: Py<PyAny>,
         /// Derivatives of dp [m per unit], (3, k).
         displacement: Py<PyAny>,
@@ -99,12 +99,12 @@ impl Slopes {
         found: &cdpr_statics::Derivatives,
         frequency: Option<&FrequencyDerivatives>,
         amplitude: Option<&AmplitudeDerivatives>,
-    ) -> Result<Self, StaticsError> {
+    ) -> Self {
         let none = || vec![f64::NAN; found.inputs.count()];
         let stiffness = found.least_stiffness(robot, load);
         // nalgebra stores matrices column by column.
-        Ok(Self {
-            magnitude: found.magnitude()?,
+        Self {
+            magnitude: found.magnitude().unwrap_or_else(|_| none()),
             displacement: found.displacement().transpose().as_slice().to_vec(),
             lengths: found.lengths.transpose().as_slice().to_vec(),
             set_points: found.set_points.transpose().as_slice().to_vec(),
@@ -112,7 +112,7 @@ impl Slopes {
             least_stiffness: stiffness.map_or_else(|_| none(), |(_, slopes)| slopes),
             frequency: frequency.map_or_else(none, |frequency| frequency.with_lengths(&found.lengths)),
             amplitude: amplitude.map_or_else(none, |amplitude| amplitude.with_lengths(&found.lengths)),
-        })
+        }
     }
 }
 
@@ -142,7 +142,8 @@ impl Robot {
     /// payload : array_like, optional
     ///     Mass added at the platform's centre of mass [kg].
     /// force, moment : array_like, optional
-    ///     On the platform in the base frame, about P [N, N m], (3,).
+    ///     On the platform in the base frame, about P [N, N m], (3,). Without a load there are no derivatives
+    ///     of |dp|.
     /// free : sequence of str, optional
     ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
@@ -208,8 +209,8 @@ impl Robot {
             let amplitude = at.map_or(Ok(None), |at| amplitude_of(robot, &load, &found, &at))?;
             let new = |found: &_| Slopes::new(robot, &load, found, frequency.as_ref(), amplitude.as_ref());
             Ok(Sides {
-                left: new(&found)?,
-                right: new(&found.right())?,
+                left: new(&found),
+                right: new(&found.right()),
                 one_sided: found.one_sided.iter().map(|input| input.column).collect(),
                 given: Given::new(robot, found.deflection),
             })

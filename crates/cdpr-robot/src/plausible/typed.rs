@@ -4,10 +4,12 @@ use super::doubt::{
     Doubt, Doubts, capacity, four_digits, frame, frame_size, in_other_unit, is_possible, reach,
 };
 use super::{cable, file};
+use crate::number::significant;
 use crate::pose::Pose;
 use crate::pose::quaternion::{QuaternionError, rotation_in_order};
 use crate::robot::Robot;
 use crate::wrench::Wrench;
+use cdpr_cable::short;
 use nalgebra::{Rotation3, Vector3};
 use std::f64::consts::PI;
 
@@ -97,6 +99,40 @@ pub fn in_ground(robot: &Robot, quantity: &str, pose: &Pose) -> Option<Doubt> {
             format!("z of {} m or more", four_digits(pose.position.z + ground - lowest)),
         )
     })
+}
+
+/// Steps of time and way beyond this many times their medians are gaps.
+const GAP: f64 = 5.0;
+
+/// A time [s] of a path that is not later than the one before, or that is much later, with a platform that has
+/// moved far meanwhile. `lines` are those of a file, and `name` is that of the column.
+pub fn times(name: &str, lines: &[usize], times: &[f64], poses: &[Pose]) -> Option<Doubt> {
+    let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let ways: Vec<f64> = poses.windows(2).map(|pair| (pair[1].position - pair[0].position).norm()).collect();
+    let doubt = |k: usize, why: String, meant: &str| {
+        let quantity = format!("line {}: {name}", lines[k + 1]);
+        Doubt::new(quantity, format!("{} s", short(times[k + 1])), why, meant)
+    };
+    if let Some(k) = steps.iter().position(|step| *step <= 0.0) {
+        let why =
+            format!("the line before has {} s, and the poses of a path follow each other", short(times[k]));
+        return Some(doubt(k, why, "each pose once, in the order of time"));
+    }
+    let [step, way] = [&steps, &ways].map(|all| median(all));
+    let k = (0..steps.len()).find(|k| steps[*k] > GAP * step && ways[*k] > GAP * way)?;
+    let why = format!(
+        "the line before is {} s earlier, where {} s are usual, and the platform moves {} m meanwhile",
+        significant(steps[k], 3),
+        significant(step, 3),
+        significant(ways[k], 3)
+    );
+    Some(doubt(k, why, "all poses of the path, also those between these two"))
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// A pose of a planar robot at which its cables leave the plane in which it moves, or its platform is turned

@@ -367,7 +367,7 @@ mod tests {
         assert!(study.contains("\"b\": { \"law\"") && !study.contains("\"a\": {"), "{study}");
         assert!(!study.contains("\"cog\": {"), "{study}");
         let notes = template_notes(&robot);
-        assert!(notes.contains("    b, dt ") && !notes.contains("cog"), "{notes}");
+        assert!(notes.contains("\n    b  ") && !notes.contains("cog"), "{notes}");
         // Four cables: three scalars, twelve coordinates of exit points, four offsets.
         let cost = template_cost(&robot);
         assert!(cost.contains(&(SALTELLI_BLOCKS * (3 + 12 + 4 + 2)).to_string()), "{cost}");

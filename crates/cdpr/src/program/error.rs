@@ -58,7 +58,7 @@ pub(crate) enum ProgramError {
         counted(*cables, "cable"), counted(*freedoms, "free motion"),
         counted(freedoms.saturating_sub(*cables), "coordinate")
     )]
-    TooFewCables { cables: usize, freedoms: usize, instead: &'static str },
+    TooFewCables { cables: usize, freedoms: usize, instead: String },
     /// A list of poses or wrenches.
     #[error("{option} {path}, {reason}")]
     List { option: &'static str, path: PathBuf, reason: String },
@@ -109,9 +109,10 @@ impl ProgramError {
     }
 
     /// Refuses a robot with fewer cables than free motions, and says what takes it instead.
-    pub(crate) fn unless_chosen(robot: &Robot, instead: &'static str) -> Result<(), Self> {
+    pub(crate) fn unless_chosen(robot: &Robot, instead: impl FnOnce() -> String) -> Result<(), Self> {
         let (cables, freedoms) = (robot.cables.len(), robot.freedoms().count());
-        if cables < freedoms { Err(Self::TooFewCables { cables, freedoms, instead }) } else { Ok(()) }
+        let refusal = |instead| Err(Self::TooFewCables { cables, freedoms, instead });
+        if cables < freedoms { refusal(instead()) } else { Ok(()) }
     }
 
     /// The error of writing to a path.

@@ -27,6 +27,8 @@ pub(crate) struct PoseTable {
     pub(crate) further: Vec<(String, Vec<String>)>,
     /// Their lines in the file, if it is a table.
     pub(crate) lines: Option<Vec<usize>>,
+    /// Name and numbers of its column of times [s], if it has one.
+    pub(crate) times: Option<(String, Vec<f64>)>,
 }
 
 /// Why a line, or the names, are no list.
@@ -41,7 +43,7 @@ pub(crate) fn pose_file(path: &Path, robot: &Robot) -> Result<PoseTable, Program
     {
         let refused = |reason| ProgramError::List { option: "--poses", path: path.to_owned(), reason };
         let poses = answers::poses(&String::from_utf8_lossy(&bytes)).map_err(refused)?;
-        return Ok(PoseTable { poses, further: Vec::new(), lines: None });
+        return Ok(PoseTable { poses, further: Vec::new(), lines: None, times: None });
     }
     listed("--poses", (path, bytes), "a pose", |table| {
         let lines = Some(table.lines.clone());
@@ -55,11 +57,12 @@ pub(crate) fn pose_file(path: &Path, robot: &Robot) -> Result<PoseTable, Program
             };
             let columns: Vec<_> = table.columns.iter().map(|column| (column, 1.0)).collect();
             let poses = rows(table, &columns, row)?;
-            return Ok(PoseTable { poses, further: Vec::new(), lines });
+            return Ok(PoseTable { poses, further: Vec::new(), lines, times: None });
         };
         let (poses, further) = named_poses(table, header, robot)?;
+        let times = further.iter().find_map(|column| times(table, column));
         let further = further.into_iter().map(|column| passed(table, column)).collect();
-        Ok(PoseTable { poses, further, lines })
+        Ok(PoseTable { poses, further, lines, times })
     })
 }
 
@@ -123,6 +126,16 @@ fn named_poses<'a>(
         _ => return Err(of(found.lacking(POSES))),
     };
     Ok((poses, found.further))
+}
+
+/// Name and numbers [s] of a column that has the time of each pose.
+fn times(table: &Table, column: &Column) -> Option<(String, Vec<f64>)> {
+    const NAMES: [&str; 4] = ["t", "time", "timestamp", "stamp"];
+    let (quantity, unit) = column.quantity();
+    let is_time = unit.is_none_or(|unit| unit.dimension == Dimension::Time);
+    let values = table.finite(column).ok().filter(|_| is_time && NAMES.contains(&quantity.as_str()))?;
+    let factor = unit.map_or(1.0, |unit| unit.factor);
+    Some((column.name.clone(), values.iter().map(|value| in_si(*value, factor)).collect()))
 }
 
 /// Name and cells of a column.

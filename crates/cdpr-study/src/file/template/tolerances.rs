@@ -113,9 +113,14 @@ impl Tolerances {
 }
 
 /// Whether a template has a tolerance of this parameter. A point mass has no offsets of cables and of the
-/// centre of mass: the format of robots does not know them.
+/// centre of mass: the format of robots does not know them. Where the balance alone gives the tensions, there
+/// are no set-points that could be off.
 pub fn has_tolerance(robot: &Robot, parameter: &Parameter) -> bool {
-    !(robot.platform.point && matches!(parameter.group(), "a" | "cog"))
+    match parameter.group() {
+        "a" | "cog" => !robot.platform.point,
+        "dt" => robot.cables.len() > robot.freedoms().count(),
+        _ => true,
+    }
 }
 
 /// A sign that looks random and is always the same: the last step of SplitMix64 (Steele, Lea, Flood, 2014).

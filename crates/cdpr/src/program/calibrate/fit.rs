@@ -8,8 +8,9 @@ use crate::program::error::ProgramError;
 use crate::program::output::{Details, Ending, patiently, print_sentence, table, wide_table};
 use crate::program::said;
 use cdpr_calibration::{
-    Calibrated, CalibrationError, CalibrationSummary, Campaign, Fit, FitSettings, Measurements,
-    OutlierSummary, ParameterSummary, Quantity, RobustLoss, RowApart, Unknowns, carry_out, read_measurements,
+    Calibrated, CalibrationError, CalibrationSummary, Campaign, Fit, FitSettings, LengthConstant,
+    Measurements, OutlierSummary, ParameterSummary, Quantity, RobustLoss, RowApart, Unknowns, carry_out,
+    read_measurements,
 };
 use cdpr_report::calibration_report;
 use cdpr_robot::{Robot, counted, listing, shown, significant};
@@ -115,7 +116,7 @@ pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         error => in_file(error),
     })?;
     settings.format.print(&summary, |summary| {
-        print(summary);
+        print(summary, fit.loss);
         if settings.details.details {
             print_details(summary, &found);
         }
@@ -177,7 +178,7 @@ const LEADING: usize = 5;
 const DIGITS: f64 = 9.0;
 
 /// The accuracy that is left, how well the model fits, and the parameters that moved most.
-fn print(summary: &CalibrationSummary) {
+fn print(summary: &CalibrationSummary, loss: RobustLoss) {
     let all = || summary.parameters.iter().chain(&summary.sensors);
     let (unknowns, identifiable) = (all().count(), all().filter(|(_, of)| of.identifiable).count());
     let (robot, rows) = (shown(&summary.robot), counted(summary.rows, "row"));
@@ -207,7 +208,17 @@ fn print(summary: &CalibrationSummary) {
     }
     let misfit = summary.chi_square / summary.degrees_of_freedom.max(1) as f64;
     if let Some(row) = apart {
-        sentences.insert(0, about_apart(summary, row));
+        sentences.insert(0, about_apart(summary, row, loss));
+    } else if let Some(LengthConstant { metres, share }) = summary.length_constant {
+        let (size, to) = (digits(1e3 * metres.abs()), if metres < 0.0 { "short" } else { "long" });
+        sentences.insert(
+            0,
+            format!(
+                "The measurements do not fit {robot}: lengths that are all {size} mm too {to} explain {:.0} % of the \
+                 misfit. Is a constant missing, such as the lead of all cables?",
+                100.0 * share
+            ),
+        );
     } else if misfit > MISFIT {
         sentences.insert(
             0,
@@ -256,7 +267,11 @@ fn print(summary: &CalibrationSummary) {
 }
 
 /// Which row does not fit, where it is one.
-fn about_apart(summary: &CalibrationSummary, RowApart { line, share, others_fit }: RowApart) -> String {
+fn about_apart(
+    summary: &CalibrationSummary,
+    RowApart { line, share, others_fit }: RowApart,
+    loss: RobustLoss,
+) -> String {
     let robot = shown(&summary.robot);
     let of_line = |of: &&OutlierSummary| of.line == line;
     let column =
@@ -264,9 +279,14 @@ fn about_apart(summary: &CalibrationSummary, RowApart { line, share, others_fit 
     if others_fit {
         return format!("Line {line}{column} does not fit {robot}, all other rows do.");
     }
+    let less = match loss {
+        RobustLoss::Squares => ", or let it count less: --with loss=huber",
+        RobustLoss::Huber => ", or let it count still less: --with loss=cauchy",
+        RobustLoss::Cauchy => "",
+    };
     format!(
         "The measurements do not fit {robot}: line {line}{column} makes {:.0} % of the misfit. Is it of \
-         another pose, or mistyped? Leave it out, or let it count less: --with loss=huber.",
+         another pose, or mistyped? Leave it out{less}.",
         100.0 * share
     )
 }

@@ -11,7 +11,7 @@ use crate::program::output::{Ending, patiently, print_apart, print_sentence, pro
 use crate::program::questions;
 use crate::program::said::{self, Said, is_said};
 use along::Along;
-use cdpr_robot::{Pose, Robot, broken, listing, shown};
+use cdpr_robot::{Pose, Robot, broken, listing, plausible, shown};
 use cdpr_statics::StaticsError;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
@@ -73,7 +73,7 @@ impl RobotAtPose {
                     progress.inc(1);
                     answer
                 };
-                return self.answer_all(&robot, path, |poses, progress| {
+                return self.answer_all(&robot, pose_file(path, &robot)?, |poses, progress| {
                     poses.par_iter().map(|pose| solve(pose, progress)).collect()
                 });
             }
@@ -147,13 +147,17 @@ impl RobotAtPose {
         robot: &Robot,
         mut solve: impl FnMut(&Pose) -> Result<T, StaticsError>,
     ) -> Result<Ending, ProgramError> {
-        let path = self.poses_path()?;
+        let table = pose_file(self.poses_path()?, robot)?;
+        let doubt = |(lines, (name, times)): (&Vec<usize>, &(String, Vec<f64>))| {
+            plausible::times(name, lines, times, &table.poses)
+        };
+        questions::ask(table.lines.as_ref().zip(table.times.as_ref()).and_then(doubt));
         let mut solve = |pose: &Pose, progress: &ProgressBar| {
             let answer = solve(pose);
             progress.inc(1);
             answer
         };
-        self.answer_all(robot, path, |poses, progress| {
+        self.answer_all(robot, table, |poses, progress| {
             poses.iter().map(|pose| solve(pose, progress)).collect()
         })
     }
@@ -161,10 +165,9 @@ impl RobotAtPose {
     fn answer_all<T: Row>(
         &self,
         robot: &Robot,
-        path: &Path,
+        PoseTable { poses, further, lines, .. }: PoseTable,
         mut solve: impl FnMut(&[Pose], &ProgressBar) -> Vec<Result<T, StaticsError>>,
     ) -> Result<Ending, ProgramError> {
-        let PoseTable { poses, further, lines } = pose_file(path, robot)?;
         questions::about_poses(robot, "--poses", &poses);
         let (columns, format) = (T::columns(robot).len(), self.printing.format());
         let is_brief = self.printing.is_brief();

@@ -50,7 +50,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         return moves::run(at, errors, with);
     }
     let (robot, load) = (at.robot()?, at.load.load());
-    ProgramError::unless_chosen(&robot, INSTEAD)?;
+    ProgramError::unless_chosen(&robot, || INSTEAD.to_owned())?;
     let model = errors.model(&robot)?;
     let mut path = Path::new(&robot, load, model.as_ref())?;
     let mut passed = Vec::new();

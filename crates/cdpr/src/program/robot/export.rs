@@ -6,8 +6,8 @@ use crate::program::arguments::{Overwrite, Region, RobotArgument, region};
 use crate::program::error::ProgramError;
 use crate::program::output::patiently;
 use crate::program::questions;
-use cdpr_exchange::{ExchangeError, Exported, Target, correction_table, export};
-use cdpr_robot::{Axis, counted, shown};
+use cdpr_exchange::{ExchangeError, Exported, Target, correction_table, export, takers};
+use cdpr_robot::{Axis, Pose, Robot, counted, shown};
 use cdpr_statics::StaticsError;
 use std::path::PathBuf;
 
@@ -86,7 +86,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     questions::about_pose(&robot, "--pose", &pose);
     let exported = match patiently("solving", || export(&robot, &pose, target)) {
         Err(ExchangeError::Pose(StaticsError::FreeCoordinates { cables, freedoms, .. })) => {
-            return Err(ProgramError::TooFewCables { cables, freedoms, instead: INSTEAD });
+            return Err(ProgramError::TooFewCables { cables, freedoms, instead: instead(&robot, &pose) });
         }
         exported => exported?,
     };
@@ -94,8 +94,10 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
 }
 
 /// What takes a robot with few cables.
-const INSTEAD: &str = "`cdpr inverse --pose POSE --free NAMES` finds the lengths; of all formats `--to caspr` \
-                       alone takes such a robot, as it needs none";
+fn instead(robot: &Robot, pose: &Pose) -> String {
+    let others = cdpr_exchange::instead(&takers(robot, pose));
+    format!("`cdpr inverse --pose POSE --free NAMES` finds the lengths; {others}")
+}
 
 /// Writes lengths and corrections at the positions of a region.
 fn table(settings: &Settings) -> Result<(), ProgramError> {
@@ -106,8 +108,9 @@ fn table(settings: &Settings) -> Result<(), ProgramError> {
     };
     let robot = questions::open_robot(settings.robot.path())?;
     let grid = region.grid(&robot)?;
-    ProgramError::unless_chosen(&robot, INSTEAD)?;
-    questions::about_corners(&robot, "the table", &grid.corners());
+    let corners = grid.corners();
+    ProgramError::unless_chosen(&robot, || instead(&robot, &corners[0]))?;
+    questions::about_corners(&robot, "the table", &corners);
     let coordinates = Axis::ALL.map(|axis| grid.axis(axis).coordinates());
     let made = patiently("solving", || correction_table(&robot, &rotation, &coordinates))?;
     let of = format!("{} at {}", shown(&robot.name), counted(grid.count(), "position"));

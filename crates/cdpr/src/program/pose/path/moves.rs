@@ -113,7 +113,7 @@ pub(super) fn run(
     let wanted = Wanted::read(with)?;
     let usage = |reason: &str| ProgramError::Usage(reason.to_owned());
     let robot = at.robot()?;
-    ProgramError::unless_chosen(&robot, INSTEAD)?;
+    ProgramError::unless_chosen(&robot, || INSTEAD.to_owned())?;
     let model = errors.model(&robot)?;
     if model.is_some() && wanted.residual.is_none() {
         return Err(usage("--uncertainty: expected --with residual, what swings after the move"));

@@ -82,7 +82,7 @@ struct Energy {
     kinetic_j: f64,
     /// Work of winches and forces, with the energy of what came and went.
     given_j: f64,
-    /// What damping took.
+    /// What damping dissipates.
     lost_j: f64,
     /// What is missing or too much at the end.
     drift_j: f64,
@@ -208,17 +208,17 @@ impl Answer {
             significant(*tension_n, 2)
         );
         let Energy { drift_j, kinetic_j, lost_j, .. } = self.energy;
+        print_sentence(&format!("{} a cable, {}.", self.elements(), counted(self.steps, "step")));
+        let of_chains = if self.degree.contains(&1) { ", with that which chains need," } else { "" };
+        let lost = match lost_j > 0.0 {
+            true => format!(", damping{of_chains} dissipates {} J", significant(lost_j, 3)),
+            false => String::new(),
+        };
         print_sentence(&format!(
-            "{} a cable, {}; energy off by {} J of {} J, the greatest kinetic energy.",
-            self.elements(),
-            counted(self.steps, "step"),
-            significant(drift_j, 2),
-            significant(kinetic_j, 3)
+            "Energy: the kinetic one is at most {} J{lost}, and the balance at the end is off by {} J.",
+            significant(kinetic_j, 3),
+            significant(drift_j, 2)
         ));
-        if lost_j > 0.0 {
-            let of_chains = if self.degree.contains(&1) { ", with that which chains need" } else { "" };
-            println!("Damping took {} J{of_chains}.", significant(lost_j, 3));
-        }
     }
 
     /// Elements of a cable in words, those of most cables first.
