@@ -51,7 +51,8 @@ pub(crate) fn run() -> Outcome {
     let mut page = String::from(HEAD);
     let mut live = String::from(LIVE);
     let robots = answer(&["robot", "list"], &[0])?;
-    for robot in robots["robots"].as_array().ok_or("no list of robots")? {
+    let is_robot = |entry: &&Value| entry["kind"] == "robot";
+    for robot in robots.as_array().ok_or("no list of robots")?.iter().filter(is_robot) {
         let name = text(&robot["name"]);
         eprintln!("{name}");
         section(&mut page, robot, &studied(name, &folder)?)?;
@@ -69,7 +70,7 @@ fn section(page: &mut String, robot: &Value, rows: &[(&str, String)]) -> Outcome
     let provenance = answer(&["robot", "show", name], &[0])?;
     let findings = findings.as_array().ok_or("no list of findings")?;
     let warnings: Vec<_> = findings.iter().filter(|finding| finding["severity"] == "warning").collect();
-    let extent = robot["extent_m"].as_array().ok_or("no extent")?;
+    let extent = robot["exit_extent_m"].as_array().ok_or("no extent")?;
     let extent: Vec<_> = extent.iter().map(|side| format!("{:.1}", number(side))).collect();
     write!(
         page,

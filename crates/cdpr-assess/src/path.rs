@@ -17,7 +17,6 @@ use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, InversePath, Load, StaticsError, deflection_from, derivatives,
 };
 use cdpr_study::{ErrorModel, StudyError};
-use serde::Serialize;
 
 /// A pose of a path.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,7 +40,7 @@ pub struct PathPose {
 }
 
 /// Standard deviations at a pose, (W5). `None` stands for what has no derivative.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Bands {
     /// Of the unstrained lengths [m].
     pub lengths: Vec<f64>,

@@ -106,7 +106,7 @@ fn tensions_recomputed_above_a_breaking_force_hold_nothing() {
     let breaking = row(&workspace);
     assert_eq!(breaking.status, "beyond_limits");
     let held = breaking.recomputed_status == Some("held");
-    assert!(!held || breaking.recomputed_greatest_tension.unwrap() <= 700.0 * (1.0 + 1e-9));
+    assert!(!held || breaking.recomputed_greatest_tension_n.unwrap() <= 700.0 * (1.0 + 1e-9));
     // A platform on few cables hangs as it does, whatever breaks.
     let mut few = Robot::from_library("four-cables").unwrap();
     few.cables.iter_mut().for_each(|cable| cable.properties.breaking_force = Some(1.0));

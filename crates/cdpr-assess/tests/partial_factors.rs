@@ -252,7 +252,7 @@ fn a_map_has_the_greatest_utilization_of_each_position() {
         let most = cases.iter().map(eta).fold(0.0, f64::max);
         assert_eq!(row.utilization, Some(most));
         let far = held.broken.iter().map(|one| one.rest.as_ref().unwrap().moved).fold(0.0, f64::max);
-        assert_eq!(row.break_mm, Some(1e3 * far));
+        assert_eq!(row.break_moved_mm, Some(1e3 * far));
         assert!(row.utilization_case.is_some() && row.utilization_cable.is_some());
     }
     assert!(summary.rows.iter().any(|row| row.utilization.is_some()));

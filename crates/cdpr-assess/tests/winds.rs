@@ -101,16 +101,16 @@ fn each_position_of_a_map_has_its_worst_wind() {
         let (_, rest) = in_weather(&robot, (&pose).into(), &load, &fixed).unwrap();
         let from = deflection(&robot, &pose, &load).unwrap().unloaded.equilibrium.pose.position;
         let moved = 1e3 * (rest.pose.position - from).norm();
-        assert!((one.weather_mm.unwrap() - moved).abs() < 1e-4, "{one:?} {moved}");
+        assert!((one.weather_moved_mm.unwrap() - moved).abs() < 1e-4, "{one:?} {moved}");
         assert!(one.weather_azimuth_deg.is_none());
         // That direction is not one of the 24, but it is near two of them.
-        assert!(all.weather_mm.unwrap() > 0.98 * moved, "{all:?} {moved}");
+        assert!(all.weather_moved_mm.unwrap() > 0.98 * moved, "{all:?} {moved}");
         assert!(all.weather_azimuth_deg.is_some_and(|azimuth| (0.0..360.0).contains(&azimuth)));
-        assert!(all.weather_greatest_tension.unwrap() > all.weather_least_tension.unwrap());
+        assert!(all.weather_greatest_tension_n.unwrap() > all.weather_least_tension_n.unwrap());
     }
     assert_eq!(of_one.weather.unwrap().velocity, Some([10.0, 5.0, 0.0]));
     assert!(of_all.weather.unwrap().conditions().contains("from any direction, at 10 m over ground"));
-    assert!(of_all.weather_mm.unwrap().max > of_one.weather_mm.unwrap().min);
+    assert!(of_all.weather_moved_mm.unwrap().max > of_one.weather_moved_mm.unwrap().min);
 }
 
 #[test]

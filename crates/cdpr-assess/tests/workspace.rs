@@ -139,7 +139,7 @@ fn a_load_beyond_the_limits_is_told_from_a_pose_that_is_not_held() {
     let summary =
         WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| (), &|| false).unwrap());
     assert_eq!(summary.rows[0].status, "beyond_limits");
-    assert!(summary.rows[0].greatest_tension.unwrap() > 650.0);
+    assert!(summary.rows[0].greatest_tension_n.unwrap() > 650.0);
     assert!(summary.rows[0].reason.as_ref().unwrap().contains("above tension_limits.max, 650 N"));
     assert!(summary.rows[1].reason.as_ref().unwrap().contains("no tensions between"));
     let [(first, 1), (second, 1)] =
@@ -261,7 +261,7 @@ fn further_columns_are_what_is_said_of_each_pose() {
         let pose = &found.pose;
         let capacity = capacity_at(&robot, pose, &load, &set);
         assert_eq!(row.payload_recomputed_kg, capacity.payload_recomputed.ok().map(|figure| figure.value));
-        assert_eq!(row.margin_recomputed, capacity.margin_recomputed.ok().map(|figure| figure.value));
+        assert_eq!(row.margin_recomputed_n, capacity.margin_recomputed.ok().map(|figure| figure.value));
         let tilt = tilt_at(&robot, pose, &load, 4, 1e-3).ok();
         let least = tilt.as_ref().and_then(|tilt| tilt.least());
         assert_eq!(row.tilt_deg, least.map(|least| least.angle.to_degrees()));

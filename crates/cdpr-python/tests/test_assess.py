@@ -43,8 +43,9 @@ def test_certificates_are_those_of_the_program(name):
     given = ",".join(map(repr, lengths.tolist()))
     theirs = answer("direct", name, "--lengths", given, "--payload", "2", "--with", "certificate")["certificate"]
     found = robot.certify(lengths, payload=2)
-    for field in ("position", "rotation", "force", "least_stiffness", "stable"):
-        assert getattr(found, field) == theirs[field]
+    for field, unit in [("position", "_m"), ("rotation", "_rad"), ("force", "_n"), ("least_stiffness", "_n_per_m"),
+                        ("stable", "")]:
+        assert getattr(found, field) == theirs[field + unit]
     numpy.testing.assert_array_equal(found.pose, robot.direct(lengths, payload=2).pose)
     both = robot.certify([lengths, lengths + 1e-4], payload=2)
     assert both.position.shape == (2,) and both.position[0] == found.position and both.stable.all()
@@ -215,7 +216,7 @@ def test_moduli_of_a_record_and_a_weighing_are_those_of_the_program(data):
         assess.modulus(record, **{**known, "length": 0}, ranges=[(5, 10)])
     weighed = answer("cable", "density", "--mass", "0.203", "--length", "2", "--errors", "mass=0.001,length=0.001")
     assert assess.linear_density(0.203, 2, mass_error=0.001, length_error=0.001) == (
-        weighed["linear_density"], weighed["error"]
+        weighed["linear_density_kg_per_m"], weighed["error_kg_per_m"]
     )
     with pytest.raises(cdpr.InputError, match="mass = -1|mass is -1"):
         assess.linear_density(-1, 2)
@@ -240,15 +241,20 @@ def test_a_path_is_that_of_the_program(name, more, tmp_path):
         if "error" in pose:
             assert numpy.isnan(ours.lengths[k]).all()
             continue
-        for field in ("jump", "lengths", "tensions", "exit_tensions", "sags", "least_stiffness"):
+        for field in ("jump", "lengths", "tensions", "exit_tensions", "sags"):
             numpy.testing.assert_array_equal(getattr(ours, field)[k], pose[field])
+        assert ours.least_stiffness[k] == pose["least_stiffness_n_per_m"]
         assert 1e3 * ours.magnitude[k] == pytest.approx(pose["magnitude_mm"], rel=1e-12)
         slack = [cable + 1 for cable in numpy.flatnonzero(ours.loaded.slack[k])]
         assert slack == pose["slack_cables"]
         if more is not None:
-            for field, std in pose["standard_deviations"].items():
-                expected = numpy.array(std, dtype=float)  # NaN for None
-                numpy.testing.assert_array_equal(getattr(ours.std, field)[k], expected)
+            for field, name, factor in [
+                ("lengths", "lengths", 1), ("tensions", "tensions", 1), ("displacement", "deflection_mm", 1e3),
+                ("magnitude", "magnitude_mm", 1e3), ("least_stiffness", "least_stiffness_n_per_m", 1),
+                ("platform_frequency", "platform_frequency_hz", 1),
+            ]:
+                expected = numpy.array(pose["standard_deviations"][name], dtype=float)  # NaN for None
+                numpy.testing.assert_array_equal(factor * getattr(ours.std, field)[k], expected)
     assert (ours.std is None) == (more is None)
     with pytest.raises(cdpr.InputError, match="expected one load for the whole path"):
         robot.path(poses, payload=[1, 2, 3, 4, 5])

@@ -157,5 +157,5 @@ def test_a_robot_goes_to_mujoco_and_moorpy_and_back(tmp_path, cogiro):
 
 def test_the_library_is_that_of_the_program():
     listed = answer("robot", "list")
-    assert cdpr.exchange.robots() == [robot["name"] for robot in listed["robots"]]
-    assert cdpr.exchange.cables() == [cable["name"] for cable in listed["cables"]]
+    names = {kind: [entry["name"] for entry in listed if entry["kind"] == kind] for kind in ("robot", "cable")}
+    assert names == {"robot": cdpr.exchange.robots(), "cable": cdpr.exchange.cables()}

@@ -35,15 +35,15 @@ def test_a_cable_is_that_of_the_command_line():
         flags = [f"--{names.get(name, name)}={words(numpy.atleast_1d(value))}" for name, value in given.items()]
         printed = answer("cable", "catenary", "weight=0.9957,stiffness=1.28e6", *flags)
         cable = cdpr.catenary(0.9957, 1.28e6, **given)
-        same(cable.force, printed["force"])
-        same(cable.end, printed["end"])
-        assert cable.anchor_tension == printed["tension"]["anchor"]
-        assert cable.exit_tension == printed["tension"]["exit"]
-        assert (cable.sag, cable.energy) == (printed["sag"], printed["energy"])
-        assert cable.unstrained_length == printed["unstrained_length"]
-        assert cable.residual == printed["residual"]
+        same(cable.force, printed["force_n"])
+        same(cable.end, printed["end_m"])
+        assert cable.anchor_tension == printed["tension"]["anchor_n"]
+        assert cable.exit_tension == printed["tension"]["exit_n"]
+        assert (cable.sag, cable.energy) == (printed["sag_m"], printed["energy_j"])
+        assert cable.unstrained_length == printed["unstrained_length_m"]
+        assert cable.residual == printed["residual_m"]
         same(cable.shape[0], [0.0, 0.0])
-        numpy.testing.assert_allclose(cable.shape[-1], printed["end"], atol=1e-12)
+        numpy.testing.assert_allclose(cable.shape[-1], printed["end_m"], atol=1e-12)
 
 
 @pytest.mark.parametrize("pose", [POSE, TURNED])
@@ -53,7 +53,7 @@ def test_the_inverse_model_is_that_of_the_command_line(caroca, caroca_file, pose
     same(found.lengths, printed["lengths"])
     same(found.tensions, printed["tensions"])
     same(found.cable_forces, printed["cable_forces"])
-    same(found.residual, [printed["report"]["residual"][name] for name in ("closure", "force", "moment")])
+    same(found.residual, [printed["report"]["residual"][name] for name in ("closure_m", "force_n", "moment_nm")])
     assert found.iterations == printed["report"]["iterations"]
 
 
@@ -61,10 +61,10 @@ def check_direct(found, printed):
     for name in ("position", "rotation", "cable_forces", "tensions"):
         same(getattr(found, name), printed[name])
     assert found.stable == printed["stable"]
-    assert found.least_stiffness == printed["report"]["least_stiffness"]
+    assert found.least_stiffness == printed["report"]["least_stiffness_n_per_m"]
     assert (found.method, found.iterations) == (printed["report"]["method"], printed["report"]["iterations"])
     assert [i + 1 for i in numpy.flatnonzero(found.slack)] == printed["report"]["slack_cables"]
-    same(found.residual, [printed["residual"][name] for name in ("closure", "force", "moment")])
+    same(found.residual, [printed["residual"][name] for name in ("closure_m", "force_n", "moment_nm")])
 
 
 def test_the_direct_model_is_that_of_the_command_line(caroca, caroca_file):
@@ -119,11 +119,11 @@ def test_the_stiffness_is_that_of_the_command_line(caroca, caroca_file):
     printed = answer("stiffness", caroca_file, f"--pose={words(TURNED)}", "--payload=50")
     found = caroca.stiffness(TURNED, payload=50)
     same(found.matrix, printed["stiffness"])
-    same(found.eigenvalues, [mode["stiffness"] for mode in printed["eigenvalues"]])
+    same(found.eigenvalues, [mode["stiffness_n_per_m"] for mode in printed["eigenvalues"]])
     same(found.translations, [mode["translation"] for mode in printed["eigenvalues"]])
     same(found.rotations, [mode["rotation"] for mode in printed["eigenvalues"]])
-    assert (found.least_stiffness, found.stable) == (printed["least_stiffness"], printed["stable"])
-    assert found.characteristic_length == printed["characteristic_length"]
+    assert (found.least_stiffness, found.stable) == (printed["least_stiffness_n_per_m"], printed["stable"])
+    assert found.characteristic_length == printed["characteristic_length_m"]
 
 
 def test_the_capacity_is_that_of_the_command_line(caroca, caroca_file):
@@ -131,15 +131,14 @@ def test_the_capacity_is_that_of_the_command_line(caroca, caroca_file):
     printed = answer("capacity", caroca_file, f"--pose={words(TURNED)}", *flags)
     wrenches = [[100, 0, 0, 0, 0, 0], [0, 0, -200, 0, 0, 0]]
     found = caroca.capacity(TURNED, payload=50, wrenches=wrenches, tilt=4)
-    for kind in ("payload", "margin"):
-        for way in ("recomputed", "kept"):
-            assert getattr(found, f"{kind}_{way}") == printed[kind][way]["value"]
-    assert found.payload_kept_slack == printed["payload_kept_slack"]["value"]
-    assert found.nearest_cables == printed["nearest_cables"]["distance"]
-    assert found.nearest_to_platform == printed["nearest_to_platform"]["distance"]
+    for kind, unit in [("payload_recomputed", "kg"), ("payload_kept", "kg"), ("payload_kept_slack", "kg"),
+                       ("margin_recomputed", "n"), ("margin_kept", "n")]:
+        assert getattr(found, kind) == printed[f"{kind}_{unit}"]["value"]
+    assert 1e3 * found.nearest_cables == printed["nearest_cables_mm"]
+    assert 1e3 * found.nearest_to_platform == printed["nearest_to_platform_mm"]
     reached = numpy.degrees(found.tilt) - [towards["angle_deg"] for towards in printed["tilt"]]
     assert numpy.abs(reached).max() <= 0.01 + 1e-9
-    block = printed["margin"]["recomputed"]["blocking"][0]
+    block = printed["margin_recomputed_n"]["blocking"][0]
     assert f"cable {block['cable']} at its {block['limit']}" in found.blocked_by[3]
     with pytest.raises(cdpr.InputError, match="wrenches has the shape"):
         caroca.capacity(TURNED, wrenches=[1, 2, 3])
@@ -153,10 +152,10 @@ def test_the_derivatives_are_those_of_the_command_line(caroca, caroca_file):
     assert found.inputs[count:] == ["payload", "x", "y", "z", "rx", "ry", "rz"]
     same(1e3 * found.magnitude[:count], printed["magnitude_mm"])
     same(1e3 * found.displacement[:, :count].T, printed["deflection_mm"])
-    same(found.lengths[:, :count].T, printed["unstrained_lengths"])
+    same(found.lengths[:, :count].T, printed["lengths"])
     assert not found.one_sided.any() and "one_sided" not in printed
     same(found.magnitude_right, found.magnitude)
-    same(found.least_stiffness[:count], printed["least_stiffness"])
+    same(found.least_stiffness[:count], printed["least_stiffness_n_per_m"])
     assert numpy.isnan(found.frequency).all(), "CAROCA has no inertia"
     unloaded = caroca.derivatives(TURNED)
     same(unloaded.lengths, found.lengths)
@@ -216,9 +215,10 @@ def test_a_workspace_is_that_of_the_command_line(caroca, caroca_file, tmp_path):
     assert found.dominant == column("dominant")
     assert found.recomputed_status == column("recomputed_status")
     assert found.recomputed_reasons == column("recomputed_reason")
-    for name in ("least_tension", "greatest_tension", "least_stiffness", "dominant_share",
-                 "recomputed_least_tension", "recomputed_greatest_tension"):
-        same(getattr(found, name), [numpy.nan if value is None else value for value in column(name)])
+    for name, unit in [("least_tension", "_n"), ("greatest_tension", "_n"), ("least_stiffness", "_n_per_m"),
+                       ("dominant_share", ""), ("recomputed_least_tension", "_n"),
+                       ("recomputed_greatest_tension", "_n")]:
+        same(getattr(found, name), [numpy.nan if value is None else value for value in column(name + unit)])
     bare = caroca.workspace(x=(-3, 3, 7), y=0, z=1.75, payload=0)
     assert numpy.isnan(bare.magnitude).all() and not numpy.isnan(bare.least_stiffness).any()
     assert numpy.isnan(bare.lowest_frequency).all()

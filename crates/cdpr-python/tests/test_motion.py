@@ -147,10 +147,10 @@ def test_a_response_is_that_of_the_program_and_static_at_rest(name, pose, free, 
     expected = answer(*arguments, *(["--free", ",".join(free)] if free else []))["frequencies"]
     frequencies = [at["frequency_hz"] for at in expected]
     found = robot.response(pose, frequencies, damping=0.001, drag=0.5, marker=[0.1, 0, 0.2], free=free)
-    numpy.testing.assert_array_equal(found.amplitudes, [at["amplitude_m_per_n"] for at in expected])
-    for field in ("per_force", "per_shortening"):
-        theirs = numpy.array([at[field] for at in expected])
-        numpy.testing.assert_array_equal(getattr(found, field), theirs[..., 0] + 1j * theirs[..., 1])
+    numpy.testing.assert_array_equal(1e3 * found.amplitudes, [at["amplitude_mm_per_n"] for at in expected])
+    for field, factor, name in [("per_force", 1e3, "per_force_mm_per_n"), ("per_shortening", 1, "per_winch_mm_per_mm")]:
+        theirs = numpy.array([at[name] for at in expected])
+        numpy.testing.assert_array_equal(factor * getattr(found, field), theirs[..., 0] + 1j * theirs[..., 1])
     assert found.per_wrench.shape == (len(frequencies), 6, 6)
     at_rest = found.per_wrench[0]
     numpy.testing.assert_allclose(at_rest, at_rest.T, atol=1e-9 * numpy.abs(at_rest).max())
@@ -266,9 +266,9 @@ def test_derivatives_of_an_amplitude_are_those_of_the_program(cogiro, tmp_path):
     (tmp_path / "robot.json").write_text(cogiro.to_json())
     expected = answer("derivatives", tmp_path / "robot.json", "--pose=0.5,0.2,2", "--payload=20",
                       "--with=amplitude=3,damping=1e-3,drag=0.5", "--marker=0.1,0,-0.3")
-    theirs = expected["amplitude"]["derivatives_m_per_n"]
+    theirs = expected["amplitude"]["derivatives_mm_per_n"]
     assert found.inputs[: len(theirs)] == expected["parameters"]
-    numpy.testing.assert_array_equal(found.amplitude[: len(theirs)], theirs)
+    numpy.testing.assert_array_equal(1e3 * found.amplitude[: len(theirs)], theirs)
     assert numpy.isnan(cogiro.derivatives([0.5, 0.2, 2], payload=20).amplitude).all()
     with pytest.raises(cdpr.InputError, match="frequency is"):
         cogiro.derivatives([0.5, 0.2, 2], payload=20, shaken=-1)

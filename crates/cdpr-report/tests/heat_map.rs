@@ -77,7 +77,7 @@ fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
             }
             MapQuantity::PayloadKept => (without(|row| row.payload_kept_kg), "lengths kept"),
             MapQuantity::MarginRecomputed => {
-                (without(|row| row.margin_recomputed), "distance of the tensions")
+                (without(|row| row.margin_recomputed_n), "distance of the tensions")
             }
             MapQuantity::NearestCables => (without(|row| row.nearest_cables_mm), "nearest two cables"),
             MapQuantity::NearestToPlatform => (without(|row| row.nearest_to_platform_mm), "and platform"),
@@ -85,8 +85,10 @@ fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
             MapQuantity::Amplitude => (without(|row| row.amplitude_mm_per_n), "shaken from 0 Hz to 8 Hz"),
             MapQuantity::WinchAmplitude => (without(|row| row.winch_mm_per_mm), "drag 0.5 1/s"),
             MapQuantity::Utilization => (without(|row| row.utilization), "after each break"),
-            MapQuantity::AfterBreak => (without(|row| row.break_mm), "after the worst break"),
-            MapQuantity::Weather => (without(|row| row.weather_mm), "wind of 15 m/s from any direction"),
+            MapQuantity::AfterBreak => (without(|row| row.break_moved_mm), "after the worst break"),
+            MapQuantity::Weather => {
+                (without(|row| row.weather_moved_mm), "wind of 15 m/s from any direction")
+            }
             _ => (kept, "lengths kept"),
         };
         assert!(not_held < 63, "{quantity:?}");
@@ -192,7 +194,7 @@ fn every_quantity_over_powers_of_ten_has_colours_by_them_and_its_bar_says_so() {
     let robot = caroca();
     let mut summary = summary(&robot, Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap());
     // Stiffness [N/m] from 266 to 67363.
-    let stiffness = |row: &mut WorkspaceRow, value| row.least_stiffness = Some(value);
+    let stiffness = |row: &mut WorkspaceRow, value| row.least_stiffness_n_per_m = Some(value);
     with_values(&mut summary, stiffness, |share| 266.0 * (67_363.0_f64 / 266.0).powf(share));
     let svg = heat_map(&robot, &summary, MapQuantity::LeastStiffness, Sheet::SCREEN).unwrap();
     let texts = texts(&svg);
@@ -209,7 +211,7 @@ fn every_quantity_over_powers_of_ten_has_colours_by_them_and_its_bar_says_so() {
 fn margins_of_both_signs_have_a_line_at_zero_and_colours_for_both() {
     let robot = caroca();
     let mut summary = summary(&robot, Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap());
-    let margin = |row: &mut WorkspaceRow, value| row.margin_recomputed = Some(value);
+    let margin = |row: &mut WorkspaceRow, value| row.margin_recomputed_n = Some(value);
     with_values(&mut summary, margin, |share| 270.0 - 14_131.0 * share.powi(4));
     let svg = heat_map(&robot, &summary, MapQuantity::MarginRecomputed, Sheet::SCREEN).unwrap();
     for tick in ["0", "100", "\u{2212}100", "\u{2212}1000", "\u{2212}10000"] {
@@ -245,7 +247,7 @@ fn a_map_of_one_value_has_one_colour_and_one_tick() {
         // Rounding is no difference.
         with_values(
             &mut summary,
-            |row, value| row.margin_recomputed = Some(value),
+            |row, value| row.margin_recomputed_n = Some(value),
             |share| value * (1.0 + 1e-13 * share),
         );
         let svg = heat_map(&robot, &summary, MapQuantity::MarginRecomputed, Sheet::SCREEN).unwrap();

@@ -91,7 +91,7 @@ fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
     let (chi_square, degrees) =
         (summary["chi_square"].as_f64().unwrap(), summary["degrees_of_freedom"].as_f64().unwrap());
     assert!((chi_square / degrees - 1.0).abs() < 0.5);
-    assert!(summary["position_std_after"].as_f64() < summary["position_std_before"].as_f64());
+    assert!(summary["position_std_after_m"].as_f64() < summary["position_std_before_m"].as_f64());
     assert!(summary["warnings"].as_array().unwrap().is_empty(), "{summary}");
     assert!(read("report.html").contains("Parameters before and after"));
     let robot: Value = serde_json::from_str(&read("calibrated.json")).unwrap();
@@ -157,11 +157,11 @@ fn a_position_is_not_known_where_base_and_tracker_may_move_together() {
         serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", unwrapped(output.stderr)))
     };
     let known = fit(&[]);
-    assert!(known["position_std_after"].as_f64().unwrap() < 1e-3, "{known}");
+    assert!(known["position_std_after_m"].as_f64().unwrap() < 1e-3, "{known}");
     assert!(known.get("position_depends_on").is_none());
     // All exits and the tracker moved alike read the same.
     let moved = fit(&["--unknown", "frame"]);
-    assert!(moved["position_std_after"].is_null() && moved.get("workspace").is_none(), "{moved}");
+    assert!(moved["position_std_after_m"].is_null() && moved.get("workspace").is_none(), "{moved}");
     let names = moved["position_depends_on"].as_array().unwrap();
     assert!(names.contains(&"b1.x".into()) && names.contains(&"frame.r.x".into()), "{names:?}");
     assert!(!names.contains(&"a1.x".into()), "{names:?}");

@@ -27,7 +27,7 @@ fn json_holds_the_numbers_of_the_library() {
         assert!(output.status.success() && output.stderr.is_empty(), "{}", unwrapped(output.stderr));
         let json: Value = serde_json::from_slice(&output.stdout).unwrap();
         let keys: Vec<_> = json.as_object().unwrap().keys().map(String::as_str).collect();
-        let lists = ["parameters", "magnitude_mm", "deflection_mm", "unstrained_lengths", "least_stiffness"];
+        let lists = ["parameters", "magnitude_mm", "deflection_mm", "lengths", "least_stiffness_n_per_m"];
         assert_eq!(keys, [&lists[..], &["without", "unit"]].concat());
         assert!(json["without"][0].as_str().unwrap().contains("platform.inertia"));
         assert_eq!(json["unit"], "per SI unit of the parameter");
@@ -123,12 +123,12 @@ fn the_amplitude_of_a_shaken_platform_has_derivatives_where_they_are_asked_for()
         let output = run(&data(name), &[&asked[..], &["--format", "json"]].concat());
         let json: Value = serde_json::from_slice(&output.stdout).unwrap();
         let of = &json["amplitude"];
-        assert_eq!(of["amplitude_m_per_n"].as_f64(), Some(exact.amplitude));
+        assert_eq!(of["amplitude_mm_per_n"].as_f64(), Some(1e3 * exact.amplitude));
         assert_eq!((&of["inertia_assumed"], of["frequency_hz"].as_f64()), (&Value::from(false), Some(3.5)));
-        let listed = of["derivatives_m_per_n"].as_array().unwrap();
+        let listed = of["derivatives_mm_per_n"].as_array().unwrap();
         assert_eq!(listed.len(), json["parameters"].as_array().unwrap().len());
         for (found, exact) in listed.iter().zip(exact.with_lengths(&found.lengths)) {
-            assert_eq!(found.as_f64(), Some(exact));
+            assert_eq!(found.as_f64(), Some(1e3 * exact));
         }
         let shown = unwrapped(run(&data(name), &asked).stdout);
         let direction = axis.map_or("in the worst direction", |_| "along z");
@@ -172,7 +172,7 @@ fn a_parameter_with_two_sides_has_both_in_json_table_and_csv() {
         for (side, exact_side) in [("left", &left), ("right", &right)] {
             assert_eq!(found[side]["magnitude_mm"], 1e3 * exact_side.magnitude().unwrap()[exact.column]);
             for i in 0..8 {
-                let length = &found[side]["unstrained_lengths"][i];
+                let length = &found[side]["lengths"][i];
                 assert_eq!(*length, exact_side.lengths[(i, exact.column)]);
             }
             assert!(table.contains(&format!("{name}, {side}")), "{table}");

@@ -165,7 +165,8 @@ fn a_stiffness_of_a_design_is_also_said_by_the_length_of_the_new_robot() {
     let place = [&place[..], &["--moment", "0,2,0", "--format", "json"]].concat();
     let rows = String::from_utf8(cdpr_in(folder.path(), &place).stdout).unwrap();
     let rows = rows.lines().map(|row| serde_json::from_str::<Value>(row).unwrap());
-    let least = rows.map(|row| row["least_stiffness"].as_f64().unwrap()).fold(f64::INFINITY, f64::min);
+    let least =
+        rows.map(|row| row["least_stiffness_n_per_m"].as_f64().unwrap()).fold(f64::INFINITY, f64::min);
     assert!((own["stiffness"].as_f64().unwrap() / least - 1.0).abs() < 1e-6, "{own} {least}");
     assert!((found["best"]["objective"].as_f64().unwrap() / least - 1.0).abs() > 1e-3, "{found}");
     let (said, _folder) = designed(&wall(), &design, &[]);

@@ -157,7 +157,7 @@ fn a_proof_is_of_the_distance_to_the_exact_equilibrium_which_residuals_do_not_st
     let direct = ["direct", "cogiro", "--from", case.to_str().unwrap(), "--with", "certificate"];
     let found: Value =
         serde_json::from_str(&answered(cdpr(&[&direct[..], &["--format", "json"]].concat()))).unwrap();
-    assert!(found["residual"]["force"].as_f64() < found["certificate"]["force"].as_f64(), "{found}");
+    assert!(found["residual"]["force_n"].as_f64() < found["certificate"]["force_n"].as_f64(), "{found}");
     let said = answered(cdpr(&direct)).replace('\n', " ");
     assert!(said.contains("proved: an exact equilibrium is within "), "{said}");
     assert!(

@@ -118,7 +118,7 @@ fn an_answer_goes_to_the_file_whose_ending_chooses_its_format() {
     let findings = text(cdpr(&["robot", "check", "copacabana-handling", "--format", "csv"]).stdout);
     assert!(findings.starts_with("severity,field,"), "{findings}");
     let shown = answered(cdpr(&["robot", "show", "cogiro", "--format", "csv"]));
-    assert!(shown.contains("\nmass,91.058\n"), "{shown}");
+    assert!(shown.contains("\nmass_kg,91.058\n"), "{shown}");
 }
 
 #[test]

@@ -43,7 +43,7 @@ fn the_lengths_of_a_table_of_inverse_lead_back_to_its_poses() {
             assert!((row[*axis].parse::<f64>().unwrap() - wanted).abs() < 1e-8, "{axis}: {}", row[*axis]);
             assert_eq!(row[&format!("given_{axis}")].parse::<f64>().unwrap(), wanted);
         }
-        assert!(row["certified_m"].parse::<f64>().unwrap() < 1e-9);
+        assert!(row["certificate_position_m"].parse::<f64>().unwrap() < 1e-9);
         // One of the starts of the first row leads to another stable place.
         assert_eq!(row["others"], if name == "one" { "1" } else { "0" });
         assert!(!row["tension_1_n"].is_empty() && !row["length_8_m"].is_empty());

@@ -35,7 +35,7 @@ fn what_a_robot_is_fits_in_a_few_lines() {
     }
     let entry: Value =
         serde_json::from_str(&answered(cdpr(&["robot", "show", "irma4u", "--format", "json"]))).unwrap();
-    assert_eq!((&entry["grade"], &entry["mass"]), (&json!("surveyed"), &json!(12.992)));
+    assert_eq!((&entry["grade"], &entry["mass_kg"]), (&json!("surveyed"), &json!(12.992)));
 }
 
 #[test]

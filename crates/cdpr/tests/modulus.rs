@@ -117,8 +117,8 @@ fn a_weighing_gives_the_linear_density_with_its_error() {
     let weighing = ["--mass", "0.203", "--length", "2", "--errors", "mass=0.001,length=0.001"];
     let output = cdpr(&[&["cable", "density"], &weighing[..], &["--format", "json"]].concat());
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert!((found["linear_density"].as_f64().unwrap() - 0.1015).abs() < 1e-12);
-    assert!((found["error"].as_f64().unwrap() - 5.5075e-4).abs() < 1e-12);
+    assert!((found["linear_density_kg_per_m"].as_f64().unwrap() - 0.1015).abs() < 1e-12);
+    assert!((found["error_kg_per_m"].as_f64().unwrap() - 5.5075e-4).abs() < 1e-12);
     let refused = cdpr(&["cable", "density", "--mass", "1", "--length", "0"]);
     assert!(!refused.status.success());
     assert!(unwrapped(refused.stderr).contains("length is 0: expected a length"));

@@ -87,7 +87,7 @@ fn residuals(answer: &Value, greatest: &mut f64, worst: &mut f64) {
                     *greatest = list.iter().filter_map(Value::as_f64).fold(*greatest, |a, t| a.max(t.abs()));
                 }
                 if name == "residual"
-                    && let Some(force) = value["force"].as_f64()
+                    && let Some(force) = value["force_n"].as_f64()
                 {
                     *worst = worst.max(force);
                 }

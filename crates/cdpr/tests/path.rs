@@ -141,7 +141,7 @@ fn the_standard_deviations_of_a_path_are_those_of_the_derivatives() {
             };
             same("std_magnitude_mm", std(&|k| found["magnitude_mm"][k].as_f64().unwrap()));
             same("std_dz_mm", std(&|k| found["deflection_mm"][k][2].as_f64().unwrap()));
-            same("std_length_2_m", std(&|k| found["unstrained_lengths"][k][1].as_f64().unwrap()));
+            same("std_length_2_m", std(&|k| found["lengths"][k][1].as_f64().unwrap()));
         }
         // Drawn again over itself, but over nothing else.
         assert!(std::fs::read_to_string(&figure).unwrap().contains("along a path of 7 poses"));

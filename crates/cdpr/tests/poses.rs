@@ -147,13 +147,16 @@ fn a_table_has_the_numbers_of_the_lines_of_json_to_the_last_bit() {
                     (cables("loaded_tension", "n"), &json[0]["loaded"]["tensions"]),
                 ],
                 "stiffness" => {
-                    let entries = (1..=6).flat_map(|i| (1..=6).map(move |j| format!("k_{i}{j}"))).collect();
-                    let length = &json[0]["characteristic_length"];
+                    let units = [["n_per_m", "n_per_rad"], ["n", "nm_per_rad"]];
+                    let unit = |i: usize, j: usize| units[usize::from(i > 3)][usize::from(j > 3)];
+                    let entry = |i| (1..=6).map(move |j| format!("k_{i}{j}_{}", unit(i, j)));
+                    let entries = (1..=6).flat_map(entry).collect();
+                    let length = &json[0]["characteristic_length_m"];
                     vec![
                         (entries, &json[0]["stiffness"]),
-                        (names(&["least_stiffness"]), &json[0]["least_stiffness"]),
-                        (names(&["eigenvalue_1"]), &json[0]["eigenvalues"][0]["stiffness"]),
-                        (names(&["eigenvalue_6"]), &json[0]["eigenvalues"][5]["stiffness"]),
+                        (names(&["least_stiffness_n_per_m"]), &json[0]["least_stiffness_n_per_m"]),
+                        (names(&["eigenvalue_1_n_per_m"]), &json[0]["eigenvalues"][0]["stiffness_n_per_m"]),
+                        (names(&["eigenvalue_6_n_per_m"]), &json[0]["eigenvalues"][5]["stiffness_n_per_m"]),
                         (names(&["characteristic_length_m"]), length),
                     ]
                 }
@@ -170,7 +173,7 @@ fn a_table_has_the_numbers_of_the_lines_of_json_to_the_last_bit() {
                     vec![
                         (all("magnitude_mm"), &json[0]["magnitude_mm"]),
                         (vector.to_vec(), &json[0]["deflection_mm"][last]),
-                        (lengths, &json[0]["unstrained_lengths"][last]),
+                        (lengths, &json[0]["lengths"][last]),
                     ]
                 }
             };

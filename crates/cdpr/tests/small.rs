@@ -117,8 +117,8 @@ fn cables_that_cross_are_something_wrong() {
         cdpr_in(folder.path(), &["capacity", "thick.json", "--pose", "0,0,1.75", "--format", "json"]);
     let found: Value = serde_json::from_str(&text(output.stdout)).unwrap();
     assert_eq!(output.status.code(), Some(3));
-    let least = |name: &str| found[name]["distance"].as_f64().unwrap_or(0.0);
-    assert!(least("nearest_cables").min(least("nearest_to_platform")) < 0.0, "{found}");
+    let least = |name: &str| found[name].as_f64().unwrap_or(0.0);
+    assert!(least("nearest_cables_mm").min(least("nearest_to_platform_mm")) < 0.0, "{found}");
 }
 
 #[test]

@@ -88,7 +88,7 @@ fn what_is_said_of_a_pose_is_what_a_sampling_at_it_alone_says() {
     bench.run("out", &["--table", "csv"]);
     let row = &rows(&bench, "out/plane.csv")[4];
     assert_eq!(
-        (&row["sampling"], &row["x"], &row["y"]),
+        (&row["sampling"], &row["x_m"], &row["y_m"]),
         (&json!("plane/0004"), &json!("-1.75"), &json!("0.0"))
     );
     let alone = &bench.json("out/summary.json")["studies"]["alone"];

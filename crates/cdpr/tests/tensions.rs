@@ -337,7 +337,7 @@ fn the_inverse_model_says_whether_the_platform_stays_with_its_lengths() {
     };
     let (stable, stiffness) = (of("inverse"), of("stiffness"));
     assert_eq!(stable["stable"], true);
-    let [found, exact] = [stable, stiffness].map(|of| of["least_stiffness"].as_f64().unwrap());
+    let [found, exact] = [stable, stiffness].map(|of| of["least_stiffness_n_per_m"].as_f64().unwrap());
     assert!((found / exact - 1.0).abs() < 1e-9, "{found} {exact}");
     let printed = answered(cdpr(&["inverse", "caroca", "--pose", "0,0,1.75"]));
     assert!(printed.lines().next().unwrap().ends_with(" N hold it, stable."), "{printed}");
@@ -352,7 +352,7 @@ fn the_inverse_model_says_whether_the_platform_stays_with_its_lengths() {
     let given = ["inverse", path.to_str().unwrap(), "--pose", "0,0,2", "--format", "json"];
     let unstable: Value = serde_json::from_slice(&cdpr(&given).stdout).unwrap();
     assert_eq!(unstable["stable"], false);
-    assert!(unstable["least_stiffness"].as_f64().unwrap() < 0.0);
+    assert!(unstable["least_stiffness_n_per_m"].as_f64().unwrap() < 0.0);
 }
 
 #[test]

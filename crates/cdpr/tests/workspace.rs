@@ -72,7 +72,7 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
     let table = text(written[5].1.clone());
     let lines: Vec<_> = table.lines().collect();
     assert_eq!(lines.len(), 64);
-    assert!(lines[0].starts_with("x_m,y_m,z_m,status,least_tension,greatest_tension,dx_mm"));
+    assert!(lines[0].starts_with("x_m,y_m,z_m,status,least_tension_n,greatest_tension_n,dx_mm"));
     assert!(
         lines[32].starts_with("0,0,1.75,held,") || lines[32].starts_with("0.0,0.0,1.75,held,"),
         "{}",
@@ -142,7 +142,7 @@ fn any_load_and_any_orientation_have_a_workspace_and_without_a_load_nothing_is_d
         (&json!({}), None)
     );
     assert_eq!((&unloaded["magnitude_mm"], unloaded["columns"].get("magnitude_mm")), (&Value::Null, None));
-    assert!(unloaded["least_stiffness"]["min"].as_f64().unwrap() > 0.0);
+    assert!(unloaded["least_stiffness_n_per_m"]["min"].as_f64().unwrap() > 0.0);
     assert!(!folder.path().join("out/deflection.svg").exists());
     assert_eq!(std::fs::read(folder.path().join("out/mine.svg")).unwrap(), b"mine");
 }

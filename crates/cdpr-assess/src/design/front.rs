@@ -31,6 +31,8 @@ pub struct Front {
     pub outputs: [Goal; 2],
     /// Over the poses.
     pub over: [Over; 2],
+    /// What tables call both objectives, with their units.
+    pub names: [String; 2],
     /// What a position error is and assumes, where there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub basis: Option<&'static str>,
@@ -101,6 +103,7 @@ pub fn front(problem: &DesignProblem) -> Result<Front, AssessError> {
     let mut front = Front {
         outputs: [problem.output, second],
         over: [problem.over, over],
+        names: [name(problem.output, problem.over), name(second, over)],
         basis: problem.needs(Goal::Position).then_some(BASIS),
         left_laws: left_laws(&problem.types, &problem.variables, &problem.robot),
         poses: problem.poses.len(),
@@ -124,6 +127,16 @@ pub fn front(problem: &DesignProblem) -> Result<Front, AssessError> {
     }
     front.keep_best();
     Ok(front)
+}
+
+/// Name of an output over the poses.
+fn name(output: Goal, over: Over) -> String {
+    let name = output.name();
+    match over {
+        _ if output.is_of_all_poses() => name.to_owned(),
+        Over::Mean => format!("mean_{name}"),
+        Over::Worst => format!("worst_{name}"),
+    }
 }
 
 impl Front {

@@ -24,10 +24,13 @@ pub struct ProtocolSummary {
     /// Title.
     pub title: String,
     /// Young's modulus of all cables [Pa] in place of the robot's.
+    #[serde(rename = "youngs_modulus_pa")]
     pub youngs_modulus: Option<f64>,
     /// Least coordinates of the poses [m].
+    #[serde(rename = "region_low_m")]
     pub region_low: [f64; 3],
     /// Greatest coordinates of the poses [m].
+    #[serde(rename = "region_high_m")]
     pub region_high: [f64; 3],
     /// Greatest rotation of the poses [degrees].
     pub region_angle_deg: f64,
@@ -38,6 +41,7 @@ pub struct ProtocolSummary {
     /// Seed.
     pub seed: u64,
     /// A pose is found if P is as near as this [m] ...
+    #[serde(rename = "found_distance_m")]
     pub found_distance: f64,
     /// ... and the rotation [degrees].
     pub found_angle_deg: f64,
@@ -66,6 +70,7 @@ pub struct Draws {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RobustnessRow {
     /// Distance of the starts [m]; `None` in the total.
+    #[serde(rename = "distance_m")]
     pub distance: Option<f64>,
     /// Angle of the starts [degrees]; `None` in the total.
     pub angle_deg: Option<f64>,
@@ -84,6 +89,7 @@ pub struct RobustnessRow {
     /// Iterations of the answers.
     pub iterations: Option<Spread>,
     /// Distance of the true poses found from the true ones [m].
+    #[serde(rename = "true_pose_distance_m")]
     pub true_pose_distance: Option<Spread>,
     /// Angle between them [degrees].
     pub true_pose_angle_deg: Option<Spread>,

@@ -22,14 +22,14 @@ pub struct WorkspaceRow {
     /// With the lengths kept: `held`; `beyond_limits` where the load takes a tension out of the limits; else
     /// the kind of failure.
     pub status: &'static str,
-    pub least_tension: Option<f64>,
-    pub greatest_tension: Option<f64>,
+    pub least_tension_n: Option<f64>,
+    pub greatest_tension_n: Option<f64>,
     pub dx_mm: Option<f64>,
     pub dy_mm: Option<f64>,
     pub dz_mm: Option<f64>,
     /// |dp|.
     pub magnitude_mm: Option<f64>,
-    pub least_stiffness: Option<f64>,
+    pub least_stiffness_n_per_m: Option<f64>,
     /// Frequency with which the platform swings with the load, the mass of cables included.
     pub platform_frequency_hz: Option<f64>,
     /// Share of the platform in the kinetic energy of that motion.
@@ -50,8 +50,8 @@ pub struct WorkspaceRow {
     /// `held` where tensions recomputed hold the pose under the load; `beyond_limits` where they are above a
     /// limit or a breaking force; else the kind of failure. This and the following are empty without a load.
     pub recomputed_status: Option<&'static str>,
-    pub recomputed_least_tension: Option<f64>,
-    pub recomputed_greatest_tension: Option<f64>,
+    pub recomputed_least_tension_n: Option<f64>,
+    pub recomputed_greatest_tension_n: Option<f64>,
     pub recomputed_reason: Option<String>,
     /// Greatest mass at the centre of mass [kg], tensions recomputed; this and all that follows is
     /// empty where it was not asked for or does not exist.
@@ -62,8 +62,8 @@ pub struct WorkspaceRow {
     pub payload_kept_kg: Option<f64>,
     pub payload_kept_blocked_by: Option<String>,
     /// Distance of the tensions from the nearest limit [N].
-    pub margin_recomputed: Option<f64>,
-    pub margin_kept: Option<f64>,
+    pub margin_recomputed_n: Option<f64>,
+    pub margin_kept_n: Option<f64>,
     /// Distance of the nearest two cables.
     pub nearest_cables_mm: Option<f64>,
     /// Their numbers, from 1.
@@ -86,12 +86,12 @@ pub struct WorkspaceRow {
     /// Why a position that is held has no amplitude.
     pub amplitude_reason: Option<String>,
     /// Displacement in the weather and under the load, in wind of the worst direction.
-    pub weather_mm: Option<f64>,
+    pub weather_moved_mm: Option<f64>,
     /// The azimuth in which that wind blows, from x to y; empty for a wind of one velocity.
     pub weather_azimuth_deg: Option<f64>,
     /// Least and greatest tension of any cable at the platform or exit point, in wind of any direction.
-    pub weather_least_tension: Option<f64>,
-    pub weather_greatest_tension: Option<f64>,
+    pub weather_least_tension_n: Option<f64>,
+    pub weather_greatest_tension_n: Option<f64>,
     /// What is wrong in the weather, in words: a wind without a rest, tensions out of limits.
     pub weather_reason: Option<String>,
     /// Greatest utilization of a cable by the factors that are given, or greatest tension over breaking
@@ -102,7 +102,7 @@ pub struct WorkspaceRow {
     /// `intact`, `weather`, or the number of the broken cable.
     pub utilization_case: Option<String>,
     /// How far the platform moves after the break that moves it farthest.
-    pub break_mm: Option<f64>,
+    pub break_moved_mm: Option<f64>,
     /// The number of the cable that breaks then.
     pub break_cable: Option<String>,
     /// Why the utilization of a case is not known, in words.
@@ -117,15 +117,15 @@ impl WorkspaceRow {
         let most = breaks.and_then(|breaks| breaks.utilization.as_ref());
         let farthest = breaks.and_then(|breaks| breaks.farthest.as_ref());
         Self {
-            weather_mm: moved,
+            weather_moved_mm: moved,
             weather_azimuth_deg: azimuth,
-            weather_least_tension: least,
-            weather_greatest_tension: greatest,
+            weather_least_tension_n: least,
+            weather_greatest_tension_n: greatest,
             weather_reason: pose.weather.as_deref().and_then(wrong_in_weather),
             utilization: most.map(|(most, _)| most.value()),
             utilization_cable: most.map(|(most, _)| most.cable + 1),
             utilization_case: most.map(|(_, situation)| case_name(situation)),
-            break_mm: farthest.map(|(moved, _)| 1e3 * moved),
+            break_moved_mm: farthest.map(|(moved, _)| 1e3 * moved),
             break_cable: farthest.map(|(_, cables)| joined(cables)),
             break_reason: pose.breaks.as_deref().and_then(open_after_breaks),
             ..Self::in_calm(workspace, pose)
@@ -169,13 +169,13 @@ impl WorkspaceRow {
             y_m: y,
             z_m: z,
             status,
-            least_tension: held.map(|held| held.least_tension),
-            greatest_tension: held.map(|held| held.greatest_tension),
+            least_tension_n: held.map(|held| held.least_tension),
+            greatest_tension_n: held.map(|held| held.greatest_tension),
             dx_mm: displacement.map(|dp| dp.x),
             dy_mm: displacement.map(|dp| dp.y),
             dz_mm: displacement.map(|dp| dp.z),
             magnitude_mm: displacement.map(|dp| dp.norm()),
-            least_stiffness: held.map(|held| held.least_stiffness),
+            least_stiffness_n_per_m: held.map(|held| held.least_stiffness),
             platform_frequency_hz: swing.map(|swing| swing.platform),
             platform_share: swing.map(|swing| swing.platform_share),
             lowest_frequency_hz: swing.map(|swing| swing.lowest),
@@ -189,15 +189,15 @@ impl WorkspaceRow {
             std_mm: dominant.map(|dominant| 1e3 * dominant.std),
             reason,
             recomputed_status: again.as_ref().map(|(status, _)| *status),
-            recomputed_least_tension: tensions.map(|recomputed| recomputed.least_tension),
-            recomputed_greatest_tension: tensions.map(|recomputed| recomputed.greatest_tension),
+            recomputed_least_tension_n: tensions.map(|recomputed| recomputed.least_tension),
+            recomputed_greatest_tension_n: tensions.map(|recomputed| recomputed.greatest_tension),
             recomputed_reason: again.and_then(|(_, reason)| reason),
             payload_recomputed_kg: value(|capacity| &capacity.payload_recomputed),
             payload_recomputed_blocked_by: blocked_by(pose, |capacity| &capacity.payload_recomputed),
             payload_kept_kg: value(|capacity| &capacity.payload_kept),
             payload_kept_blocked_by: blocked_by(pose, |capacity| &capacity.payload_kept),
-            margin_recomputed: value(|capacity| &capacity.margin_recomputed),
-            margin_kept: value(|capacity| &capacity.margin_kept),
+            margin_recomputed_n: value(|capacity| &capacity.margin_recomputed),
+            margin_kept_n: value(|capacity| &capacity.margin_kept),
             nearest_cables_mm: cables.map(|near| 1e3 * near.distance),
             nearest_cables: cables.map(|CableDistance { pair: [i, j], .. }| format!("{} {}", i + 1, j + 1)),
             nearest_to_platform_mm: platform.map(|near| 1e3 * near.distance),
@@ -314,13 +314,13 @@ pub(super) fn columns<S: Serializer>(rows: &[WorkspaceRow], serializer: S) -> Re
     }
     columns!(
         x_m, y_m, z_m, status;
-        least_tension,
-        greatest_tension,
+        least_tension_n,
+        greatest_tension_n,
         dx_mm,
         dy_mm,
         dz_mm,
         magnitude_mm,
-        least_stiffness,
+        least_stiffness_n_per_m,
         platform_frequency_hz,
         platform_share,
         lowest_frequency_hz,
@@ -331,15 +331,15 @@ pub(super) fn columns<S: Serializer>(rows: &[WorkspaceRow], serializer: S) -> Re
         std_mm,
         reason,
         recomputed_status,
-        recomputed_least_tension,
-        recomputed_greatest_tension,
+        recomputed_least_tension_n,
+        recomputed_greatest_tension_n,
         recomputed_reason,
         payload_recomputed_kg,
         payload_recomputed_blocked_by,
         payload_kept_kg,
         payload_kept_blocked_by,
-        margin_recomputed,
-        margin_kept,
+        margin_recomputed_n,
+        margin_kept_n,
         nearest_cables_mm,
         nearest_cables,
         nearest_to_platform_mm,
@@ -352,15 +352,15 @@ pub(super) fn columns<S: Serializer>(rows: &[WorkspaceRow], serializer: S) -> Re
         winch_at_hz,
         winch,
         amplitude_reason,
-        weather_mm,
+        weather_moved_mm,
         weather_azimuth_deg,
-        weather_least_tension,
-        weather_greatest_tension,
+        weather_least_tension_n,
+        weather_greatest_tension_n,
         weather_reason,
         utilization,
         utilization_cable,
         utilization_case,
-        break_mm,
+        break_moved_mm,
         break_cable,
         break_reason
     );

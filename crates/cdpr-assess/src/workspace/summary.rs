@@ -55,26 +55,26 @@ pub struct WorkspaceSummary {
     /// positions.
     pub magnitude_mm: Option<Extremes>,
     /// Stiffness of the softest motion [N/m].
-    pub least_stiffness: Option<Extremes>,
+    pub least_stiffness_n_per_m: Option<Extremes>,
     /// Frequency with which the platform swings [Hz]; absent without
     /// `platform.inertia`.
     pub platform_frequency_hz: Option<Extremes>,
     /// Lowest natural frequency of platform and cables [Hz]; as that of the platform.
     pub lowest_frequency_hz: Option<Extremes>,
     /// Greatest tension [N].
-    pub greatest_tension: Option<Extremes>,
+    pub greatest_tension_n: Option<Extremes>,
     /// Least tension [N].
-    pub least_tension: Option<Extremes>,
+    pub least_tension_n: Option<Extremes>,
     /// Greatest tension [N] where tensions are recomputed.
-    pub recomputed_greatest_tension: Option<Extremes>,
+    pub recomputed_greatest_tension_n: Option<Extremes>,
     /// Greatest payload [kg], tensions recomputed; this and the following where they are asked for.
     pub payload_recomputed_kg: Option<Extremes>,
     /// Greatest payload [kg], lengths kept.
     pub payload_kept_kg: Option<Extremes>,
     /// Margin of the tensions [N], recomputed.
-    pub margin_recomputed: Option<Extremes>,
+    pub margin_recomputed_n: Option<Extremes>,
     /// Margin of the tensions [N], lengths kept.
-    pub margin_kept: Option<Extremes>,
+    pub margin_kept_n: Option<Extremes>,
     /// Distance of the nearest two cables [mm].
     pub nearest_cables_mm: Option<Extremes>,
     /// Distance of the cable nearest to the platform [mm].
@@ -86,13 +86,13 @@ pub struct WorkspaceSummary {
     /// Largest amplitude by a winch [mm/mm].
     pub winch_mm_per_mm: Option<Extremes>,
     /// Displacement in the weather [mm], in wind of the worst direction.
-    pub weather_mm: Option<Extremes>,
+    pub weather_moved_mm: Option<Extremes>,
     /// Greatest tension in the weather [N], in wind of any direction.
-    pub weather_greatest_tension: Option<Extremes>,
+    pub weather_greatest_tension_n: Option<Extremes>,
     /// Greatest utilization of a cable, with all cables, each of them broken and in the weather.
     pub utilization: Option<Extremes>,
     /// Motion of the platform after the break that moves it farthest [mm].
-    pub break_mm: Option<Extremes>,
+    pub break_moved_mm: Option<Extremes>,
     /// The factors of the utilizations, if asked for.
     pub factors: Option<PartialFactors>,
     /// The weather, if asked for.
@@ -293,25 +293,25 @@ impl WorkspaceSummary {
             too_much: poses.iter().filter(|pose| pose.is_too_much()).count(),
             dominant,
             magnitude_mm: held_extremes(&rows, |row| row.magnitude_mm),
-            least_stiffness: held_extremes(&rows, |row| row.least_stiffness),
+            least_stiffness_n_per_m: held_extremes(&rows, |row| row.least_stiffness_n_per_m),
             platform_frequency_hz: held_extremes(&rows, |row| row.platform_frequency_hz),
             lowest_frequency_hz: held_extremes(&rows, |row| row.lowest_frequency_hz),
-            greatest_tension: held_extremes(&rows, |row| row.greatest_tension),
-            least_tension: held_extremes(&rows, |row| row.least_tension),
-            recomputed_greatest_tension: held_extremes(&rows, |row| row.recomputed_greatest_tension),
+            greatest_tension_n: held_extremes(&rows, |row| row.greatest_tension_n),
+            least_tension_n: held_extremes(&rows, |row| row.least_tension_n),
+            recomputed_greatest_tension_n: held_extremes(&rows, |row| row.recomputed_greatest_tension_n),
             payload_recomputed_kg: held_extremes(&rows, |row| row.payload_recomputed_kg),
             payload_kept_kg: held_extremes(&rows, |row| row.payload_kept_kg),
-            margin_recomputed: held_extremes(&rows, |row| row.margin_recomputed),
-            margin_kept: held_extremes(&rows, |row| row.margin_kept),
+            margin_recomputed_n: held_extremes(&rows, |row| row.margin_recomputed_n),
+            margin_kept_n: held_extremes(&rows, |row| row.margin_kept_n),
             nearest_cables_mm: held_extremes(&rows, |row| row.nearest_cables_mm),
             nearest_to_platform_mm: held_extremes(&rows, |row| row.nearest_to_platform_mm),
             tilt_deg: held_extremes(&rows, |row| row.tilt_deg),
             amplitude_mm_per_n: held_extremes(&rows, |row| row.amplitude_mm_per_n),
             winch_mm_per_mm: held_extremes(&rows, |row| row.winch_mm_per_mm),
-            weather_mm: held_extremes(&rows, |row| row.weather_mm),
-            weather_greatest_tension: held_extremes(&rows, |row| row.weather_greatest_tension),
+            weather_moved_mm: held_extremes(&rows, |row| row.weather_moved_mm),
+            weather_greatest_tension_n: held_extremes(&rows, |row| row.weather_greatest_tension_n),
             utilization: held_extremes(&rows, |row| row.utilization),
-            break_mm: held_extremes(&rows, |row| row.break_mm),
+            break_moved_mm: held_extremes(&rows, |row| row.break_moved_mm),
             factors: workspace.further.breaks,
             weather: workspace.further.weather.map(|weather| WeatherSummary::new(&weather, &rows)),
             shaking: workspace.further.shaking.map(|shaking| ShakingSummary::new(workspace.robot, &shaking)),

@@ -142,8 +142,10 @@ pub struct CalibrationSummary {
     pub workspace: Option<UncertaintyMap>,
     /// Mean standard deviation of the position at the poses measured, per coordinate, before [m]; none
     /// without prior.
+    #[serde(rename = "position_std_before_m")]
     pub position_std_before: Option<f64>,
     /// The same after [m]; none where unknowns that nothing identifies displace the platform.
+    #[serde(rename = "position_std_after_m")]
     pub position_std_after: Option<f64>,
     /// Unknowns that nothing identifies, where they displace the platform.
     #[serde(skip_serializing_if = "Vec::is_empty")]

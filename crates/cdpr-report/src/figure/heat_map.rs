@@ -157,21 +157,21 @@ impl MapQuantity {
     fn value(self, row: &WorkspaceRow) -> Option<f64> {
         match self {
             Self::Deflection => row.magnitude_mm,
-            Self::LeastStiffness => row.least_stiffness.map(|stiffness| 1e-3 * stiffness),
+            Self::LeastStiffness => row.least_stiffness_n_per_m.map(|stiffness| 1e-3 * stiffness),
             Self::PlatformFrequency => row.platform_frequency_hz,
-            Self::GreatestTension => row.greatest_tension,
-            Self::GreatestTensionRecomputed => row.recomputed_greatest_tension,
+            Self::GreatestTension => row.greatest_tension_n,
+            Self::GreatestTensionRecomputed => row.recomputed_greatest_tension_n,
             Self::PayloadRecomputed => row.payload_recomputed_kg.map(beyond_rounding),
             Self::PayloadKept => row.payload_kept_kg.map(beyond_rounding),
-            Self::MarginRecomputed => row.margin_recomputed,
+            Self::MarginRecomputed => row.margin_recomputed_n,
             Self::NearestCables => row.nearest_cables_mm,
             Self::NearestToPlatform => row.nearest_to_platform_mm,
             Self::Tilt => row.tilt_deg,
             Self::Amplitude => row.amplitude_mm_per_n,
             Self::WinchAmplitude => row.winch_mm_per_mm,
-            Self::Weather => row.weather_mm,
+            Self::Weather => row.weather_moved_mm,
             Self::Utilization => row.utilization,
-            Self::AfterBreak => row.break_mm,
+            Self::AfterBreak => row.break_moved_mm,
         }
     }
 }

@@ -27,8 +27,11 @@ pub const HELD: &str = "held";
 pub struct PoseRow {
     /// Name of the sampling at this pose, of its blocks and of its table.
     pub sampling: String,
+    #[serde(rename = "x_m")]
     pub x: f64,
+    #[serde(rename = "y_m")]
     pub y: f64,
+    #[serde(rename = "z_m")]
     pub z: f64,
     pub qw: f64,
     pub qx: f64,

@@ -207,7 +207,7 @@ impl Output {
                 fine: ("\u{b5}m/N", 1e3),
             },
             Self::Stiffness => Words {
-                columns: &["least_stiffness"],
+                columns: &["least_stiffness_n_per_m"],
                 unit: "N/m",
                 ending: "_n_per_m",
                 label: "lowest stiffness",

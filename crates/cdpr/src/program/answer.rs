@@ -15,10 +15,13 @@ use serde::Serialize;
 #[derive(Serialize)]
 pub(crate) struct Residual {
     /// Largest distance between the end of a cable and its anchor point [m].
+    #[serde(rename = "closure_m")]
     closure: f64,
     /// Norm of the force that remains on the platform [N].
+    #[serde(rename = "force_n")]
     force: f64,
     /// Norm of the moment about P that remains on the platform [N m].
+    #[serde(rename = "moment_nm")]
     moment: f64,
 }
 
@@ -65,10 +68,12 @@ pub(crate) struct OutOfLimits {
     /// The end that has it: `anchor` or `exit`.
     end: CableEnd,
     /// The tension [N].
+    #[serde(rename = "tension_n")]
     tension: f64,
     /// `min` or `max` of its limits, or `breaking_force`.
     pub(crate) limit: &'static str,
     /// The limit [N].
+    #[serde(rename = "value_n")]
     pub(crate) value: f64,
     #[serde(skip)]
     found: cdpr_statics::limits::OutOfLimits,
@@ -204,6 +209,7 @@ struct Report {
     method: String,
     iterations: usize,
     /// Stiffness of the softest motion [N/m].
+    #[serde(rename = "least_stiffness_n_per_m")]
     least_stiffness: f64,
     /// Cables whose tension at the lower end is at most `slack_below_own_weights` times their weight.
     slack_cables: Vec<usize>,

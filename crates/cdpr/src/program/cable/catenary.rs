@@ -65,22 +65,30 @@ fn properties(cable: &str) -> Result<([f64; 2], Option<f64>), ProgramError> {
 #[derive(Serialize)]
 struct Answer {
     /// Force on the cable at the anchor point.
+    #[serde(rename = "force_n")]
     force: [f64; 2],
     tension: Tension,
     /// Greatest height of the chord above the cable [m]; `null` for a slack cable without weight, which has
     /// no shape.
+    #[serde(rename = "sag_m")]
     sag: Option<f64>,
     /// Elastic energy plus potential energy of the weight, which is zero at the height of the exit point [J].
+    #[serde(rename = "energy_j")]
     energy: f64,
+    #[serde(rename = "unstrained_length_m")]
     unstrained_length: f64,
+    #[serde(rename = "end_m")]
     end: [f64; 2],
     /// Distance between the given end and the end of the catenary [m].
+    #[serde(rename = "residual_m")]
     residual: f64,
 }
 
 #[derive(Serialize)]
 struct Tension {
+    #[serde(rename = "anchor_n")]
     anchor: f64,
+    #[serde(rename = "exit_n")]
     exit: f64,
 }
 

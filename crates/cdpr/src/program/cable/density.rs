@@ -25,9 +25,10 @@ pub(crate) struct Settings {
 
 #[derive(Serialize)]
 struct Found {
+    #[serde(rename = "linear_density_kg_per_m")]
     linear_density: f64,
+    #[serde(rename = "error_kg_per_m")]
     error: f64,
-    unit: &'static str,
 }
 
 pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
@@ -37,7 +38,7 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
         Measured { value: settings.length, error: length },
     )?;
     questions::ask(plausible::linear_density(found.value));
-    let found = Found { linear_density: found.value, error: found.error, unit: "kg/m" };
+    let found = Found { linear_density: found.value, error: found.error };
     let text = |found: &Found| match found.error {
         // Without errors nothing bounds the density.
         0.0 => println!("{} kg/m", visible(found.linear_density, 6)),

@@ -199,7 +199,9 @@ struct Plan {
 struct Left {
     information_bits: f64,
     parameters: f64,
+    #[serde(rename = "mean_at_work_m")]
     mean_at_work: Option<f64>,
+    #[serde(rename = "worst_at_work_m")]
     worst_at_work: Option<f64>,
 }
 

@@ -9,14 +9,11 @@ use crate::program::output::{Ending, print_sentence, table};
 use crate::program::pose::at_pose::{Brief, Failure, RobotAtPose, Row};
 use crate::program::questions;
 use crate::program::wrenches::WrenchArguments;
-use cdpr_assess::{
-    CableDistance, Capacity, Clearance, PlatformDistance, TiltTowards, WrenchSet, capacity_at,
-    clearance_under, tilt_at,
-};
+use cdpr_assess::{Capacity, Clearance, TiltTowards, WrenchSet, capacity_at, clearance_under, tilt_at};
 use cdpr_robot::{Pose, Robot, counted, rounded, significant, visible};
 use cdpr_statics::capacity::tension_margin;
 use cdpr_statics::{Load, StaticsError, WantedPose};
-use figure::{Blocking, Shown, WEIGHTLESS, Ways};
+use figure::{Blocking, Shown, WEIGHTLESS};
 use serde::Serialize;
 
 /// The robot, its poses, and the wrenches.
@@ -68,17 +65,29 @@ pub(crate) fn run(Settings { at, free, set, with }: &Settings) -> Result<Ending,
 /// The figures, payloads in kg and margins in N.
 #[derive(Serialize)]
 struct Answer {
-    /// Greatest mass at the centre of mass.
-    payload: Ways,
+    /// Greatest mass at the centre of mass, tensions recomputed.
+    #[serde(rename = "payload_recomputed_kg")]
+    payload_recomputed: Shown,
+    /// The same, lengths kept.
+    #[serde(rename = "payload_kept_kg")]
+    payload_kept: Shown,
     /// With the lengths kept until a greatest tension or breaking force is reached, whichever cables are
     /// slack.
+    #[serde(rename = "payload_kept_slack_kg")]
     payload_kept_slack: Shown,
-    /// Distance of the tensions from the nearest limit.
-    margin: Ways,
-    /// The nearest two cables and the cable nearest to the platform [m], tensions recomputed; `null`
-    /// where no tensions bear the load, or all cables share points.
-    nearest_cables: Option<NearCables>,
-    nearest_to_platform: Option<NearPlatform>,
+    /// Distance of the tensions from the nearest limit, tensions recomputed.
+    #[serde(rename = "margin_recomputed_n")]
+    margin_recomputed: Shown,
+    /// The same, lengths kept.
+    #[serde(rename = "margin_kept_n")]
+    margin_kept: Shown,
+    /// Distance of the surfaces of the nearest two cables, and these, tensions recomputed; `null` where no
+    /// tensions bear the load, or all cables share points.
+    nearest_cables_mm: Option<f64>,
+    nearest_cables: Option<[usize; 2]>,
+    /// Distance of the surface of the nearest cable from the hull of the other anchor points, and the cable.
+    nearest_to_platform_mm: Option<f64>,
+    nearest_to_platform: Option<usize>,
     /// Why there are no distances, where the load is not borne.
     #[serde(skip_serializing_if = "Option::is_none")]
     no_distances: Option<Failure>,
@@ -112,20 +121,6 @@ impl Towards {
     }
 }
 
-/// Two cables and the distance of their surfaces.
-#[derive(Serialize)]
-struct NearCables {
-    distance: f64,
-    cables: [usize; 2],
-}
-
-/// A cable and the distance of its surface from the hull of the other anchor points.
-#[derive(Serialize)]
-struct NearPlatform {
-    distance: f64,
-    cable: usize,
-}
-
 impl Row for Answer {
     fn columns(_: &Robot) -> Vec<String> {
         let names = [
@@ -140,9 +135,9 @@ impl Row for Answer {
             [name.to_owned(), format!("{blocked}_blocked_by")]
         };
         let distances = [
-            "nearest_cables_m",
+            "nearest_cables_mm",
             "nearest_cables",
-            "nearest_to_platform_m",
+            "nearest_to_platform_mm",
             "nearest_to_platform",
             "tilt_deg",
             "tilt_azimuth_deg",
@@ -152,27 +147,23 @@ impl Row for Answer {
 
     fn cells(&self) -> Vec<String> {
         let figures = self.all().into_iter().flat_map(|(_, shown)| [shown.number(), shown.words()]);
-        let cables = self.nearest_cables.as_ref();
-        let platform = self.nearest_to_platform.as_ref();
         let least = self.tilt.iter().min_by(|a, b| a.angle_deg.total_cmp(&b.angle_deg));
+        let number = |value: Option<f64>| value.map(|value| format!("{value:?}"));
         let why = |failure: &Option<Failure>| failure.as_ref().map(|failure| failure.message.clone());
         let distances = [
-            cables.map(|near| format!("{:?}", near.distance)),
-            cables
-                .map(|NearCables { cables: [i, j], .. }| format!("{i} {j}"))
-                .or_else(|| why(&self.no_distances)),
-            platform.map(|near| format!("{:?}", near.distance)),
-            platform.map(|near| near.cable.to_string()).or_else(|| why(&self.no_distances)),
-            least.map(|towards| format!("{:?}", towards.angle_deg)),
-            least.map(|towards| format!("{:?}", towards.azimuth_deg)).or_else(|| why(&self.no_tilt)),
+            number(self.nearest_cables_mm),
+            self.nearest_cables.map(|[i, j]| format!("{i} {j}")).or_else(|| why(&self.no_distances)),
+            number(self.nearest_to_platform_mm),
+            self.nearest_to_platform.map(|i| i.to_string()).or_else(|| why(&self.no_distances)),
+            number(least.map(|towards| towards.angle_deg)),
+            number(least.map(|towards| towards.azimuth_deg)).or_else(|| why(&self.no_tilt)),
         ];
         figures.chain(distances.map(Option::unwrap_or_default)).collect()
     }
 
     fn brief(&self) -> Vec<Brief> {
-        let number = |shown: &Shown| shown.value;
-        let payload = Brief::Least("payload", "kg", number(&self.payload.recomputed));
-        vec![payload, Brief::Least("margin", "N", number(&self.margin.recomputed))]
+        let payload = Brief::Least("payload", "kg", self.payload_recomputed.value);
+        vec![payload, Brief::Least("margin", "N", self.margin_recomputed.value)]
     }
 
     fn wrong(&self) -> String {
@@ -209,13 +200,15 @@ impl Answer {
             Err(error) => (None, None, Some(error.into())),
         };
         Self {
-            payload: Ways { recomputed: shown(found.payload_recomputed), kept: shown(found.payload_kept) },
+            payload_recomputed: shown(found.payload_recomputed),
+            payload_kept: shown(found.payload_kept),
             payload_kept_slack: shown(found.payload_kept_slack),
-            margin: Ways { recomputed: shown(found.margin_recomputed), kept: shown(found.margin_kept) },
-            nearest_cables: cables
-                .map(|CableDistance { distance, pair }| NearCables { distance, cables: pair.map(|i| i + 1) }),
-            nearest_to_platform: platform
-                .map(|PlatformDistance { distance, cable }| NearPlatform { distance, cable: cable + 1 }),
+            margin_recomputed: shown(found.margin_recomputed),
+            margin_kept: shown(found.margin_kept),
+            nearest_cables_mm: cables.map(|near| 1e3 * near.distance),
+            nearest_cables: cables.map(|near| near.pair.map(|i| i + 1)),
+            nearest_to_platform_mm: platform.map(|near| 1e3 * near.distance),
+            nearest_to_platform: platform.map(|near| near.cable + 1),
             no_distances,
             tilt,
             no_tilt: None,
@@ -224,25 +217,35 @@ impl Answer {
 
     fn all(&self) -> [(&'static str, &Shown); 5] {
         [
-            ("greatest payload [kg], tensions recomputed", &self.payload.recomputed),
-            ("greatest payload [kg], lengths kept", &self.payload.kept),
+            ("greatest payload [kg], tensions recomputed", &self.payload_recomputed),
+            ("greatest payload [kg], lengths kept", &self.payload_kept),
             ("greatest payload [kg], lengths kept, slack allowed", &self.payload_kept_slack),
-            ("margin [N], tensions recomputed", &self.margin.recomputed),
-            ("margin [N], lengths kept", &self.margin.kept),
+            ("margin [N], tensions recomputed", &self.margin_recomputed),
+            ("margin [N], lengths kept", &self.margin_kept),
         ]
+    }
+
+    /// The nearest two cables and their distance [mm].
+    fn near_cables(&self) -> Option<(f64, [usize; 2])> {
+        self.nearest_cables_mm.zip(self.nearest_cables)
+    }
+
+    /// The cable nearest to the platform and its distance [mm].
+    fn near_platform(&self) -> Option<(f64, usize)> {
+        self.nearest_to_platform_mm.zip(self.nearest_to_platform)
     }
 
     /// Which cables pass through each other or through the platform.
     fn crossings(&self) -> Vec<String> {
-        let cables = self.nearest_cables.as_ref().filter(|near| near.distance < 0.0);
-        let platform = self.nearest_to_platform.as_ref().filter(|near| near.distance < 0.0);
-        let cables = cables.map(|NearCables { distance, cables: [i, j] }| {
-            format!("Cables {i} and {j} cross: they overlap by {} mm.", visible(-1e3 * distance, 1))
+        let cables = self.near_cables().filter(|(distance, _)| *distance < 0.0);
+        let platform = self.near_platform().filter(|(distance, _)| *distance < 0.0);
+        let cables = cables.map(|(distance, [i, j])| {
+            format!("Cables {i} and {j} cross: they overlap by {} mm.", visible(-distance, 1))
         });
-        let platform = platform.map(|NearPlatform { distance, cable }| {
+        let platform = platform.map(|(distance, cable)| {
             format!(
                 "Cable {cable} crosses the platform, the hull of the other anchor points, by {} mm.",
-                visible(-1e3 * distance, 1)
+                visible(-distance, 1)
             )
         });
         cables.into_iter().chain(platform).collect()
@@ -262,7 +265,7 @@ impl Answer {
                 format!("{heading} may tilt by 90 degrees, the most that is tried, in {tried}.")
             }
         });
-        let payload = &self.payload.recomputed;
+        let payload = &self.payload_recomputed;
         let limit = |of: &Blocking| of.words.split(',').next().unwrap_or_default().to_owned();
         let by =
             payload.blocking.first().map_or_else(String::new, |first| format!("; then {}", limit(first)));
@@ -272,7 +275,7 @@ impl Answer {
             None if payload.error.is_some() => format!("{heading} carries nothing: {}.", payload.cause()),
             None => format!("{heading} is beyond a limit without any payload{by}."),
         };
-        let margin = self.margin.recomputed.value.map(|margin| match margin {
+        let margin = self.margin_recomputed.value.map(|margin| match margin {
             ..0.0 => format!(
                 "No tensions within the limits hold this pose: they miss them by {} N.",
                 significant(-margin, 4)
@@ -303,11 +306,11 @@ impl Answer {
             rows.add_row([name.to_owned(), value, words]);
         }
         println!("{rows}");
-        if let Some(NearCables { distance: distance @ 0.0.., cables: [i, j] }) = self.nearest_cables {
-            println!("nearest cables {i} and {j}, {} mm apart", visible(1e3 * distance, 1));
+        if let Some((distance @ 0.0.., [i, j])) = self.near_cables() {
+            println!("nearest cables {i} and {j}, {} mm apart", visible(distance, 1));
         }
-        if let Some(NearPlatform { distance: distance @ 0.0.., cable }) = self.nearest_to_platform {
-            println!("cable {cable} is nearest to the platform, {} mm", visible(1e3 * distance, 1));
+        if let Some((distance @ 0.0.., cable)) = self.near_platform() {
+            println!("cable {cable} is nearest to the platform, {} mm", visible(distance, 1));
         }
         if let Some(Failure { message, .. }) = &self.no_tilt {
             print_sentence(&format!("no tilt: {message}"));

@@ -189,12 +189,13 @@ struct InWeather {
     tensions: Vec<f64>,
     exit_tensions: Vec<f64>,
     /// Force of the wind on all cables [N], of which the platform bears a part.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "drag_n", skip_serializing_if = "Option::is_none")]
     drag: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
     residual: Residual,
     /// Error of the integration along the cables [m].
+    #[serde(rename = "integration_m")]
     integration: f64,
 }
 

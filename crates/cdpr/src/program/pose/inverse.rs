@@ -136,6 +136,7 @@ struct Resting {
 struct Stays {
     stable: bool,
     /// Stiffness of the softest motion [N/m].
+    #[serde(rename = "least_stiffness_n_per_m")]
     least_stiffness: f64,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     neutral: Vec<Neutral>,
@@ -215,14 +216,16 @@ impl Row for Rest {
         let cables = robot.cables.len();
         let found = COLUMNS.iter().map(|name| format!("found_{name}"));
         let tensions = ["tension", "exit_tension"].into_iter().flat_map(|name| numbered(name, "n", cables));
-        let more = ["stable", "others"].into_iter().map(str::to_owned);
+        let more = ["stable", "least_stiffness_n_per_m", "others"].into_iter().map(str::to_owned);
         found.chain(numbered("length", "m", cables)).chain(tensions).chain(more).collect()
     }
 
     fn cells(&self) -> Vec<String> {
         let Resting { found_pose, lengths, tensions, exit_tensions, stays, .. } = &self.first;
         let numbers = found_pose.iter().chain(lengths).chain(tensions).chain(exit_tensions);
-        cells(numbers).into_iter().chain([stays.stable.to_string(), self.others.len().to_string()]).collect()
+        let Stays { stable, least_stiffness, .. } = stays;
+        let last = cells([least_stiffness]).into_iter().chain([self.others.len().to_string()]);
+        cells(numbers).into_iter().chain([stable.to_string()]).chain(last).collect()
     }
 
     fn brief(&self) -> Vec<Brief> {

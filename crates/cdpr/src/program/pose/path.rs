@@ -92,6 +92,7 @@ struct Passed {
     /// |dp|.
     magnitude_mm: f64,
     /// Stiffness of the softest motion with the load.
+    #[serde(rename = "least_stiffness_n_per_m")]
     least_stiffness: f64,
     /// With which the platform swings with the load, the mass of cables included; `null` for a robot that
     /// lacks `platform.inertia`.
@@ -102,12 +103,38 @@ struct Passed {
     lowest_frequency_hz: Option<f64>,
     /// Numbers, from 1, of the cables that are slack with the load.
     slack_cables: Vec<usize>,
-    /// Standard deviations, in SI units; absent without an error model, `null` without derivatives.
+    /// Absent without an error model, and where the pose has no derivatives; `null` of a number without them.
     #[serde(skip_serializing_if = "Option::is_none")]
-    standard_deviations: Option<Bands>,
+    standard_deviations: Option<Deviations>,
     /// Tensions without and with the load.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
+}
+
+/// Standard deviations of the numbers of a pose that have these names.
+#[derive(Serialize)]
+struct Deviations {
+    lengths: Vec<f64>,
+    tensions: Vec<f64>,
+    deflection_mm: [f64; 3],
+    magnitude_mm: Option<f64>,
+    #[serde(rename = "least_stiffness_n_per_m")]
+    least_stiffness: Option<f64>,
+    platform_frequency_hz: Option<f64>,
+}
+
+impl From<Bands> for Deviations {
+    fn from(bands: Bands) -> Self {
+        let Bands { lengths, tensions, displacement, magnitude, least_stiffness, platform_frequency } = bands;
+        Self {
+            lengths,
+            tensions,
+            deflection_mm: displacement.map(|std| 1e3 * std),
+            magnitude_mm: magnitude.map(|std| 1e3 * std),
+            least_stiffness,
+            platform_frequency_hz: platform_frequency,
+        }
+    }
 }
 
 impl Passed {
@@ -128,7 +155,7 @@ impl Passed {
             platform_share: found.swing.map(|swing| swing.platform_share),
             lowest_frequency_hz: found.swing.map(|swing| swing.lowest),
             slack_cables: loaded.report.slack.iter().map(|i| i + 1).collect(),
-            standard_deviations: bands,
+            standard_deviations: bands.map(Deviations::from),
             out_of_limits: OutOfLimits::all(robot, &lengths, &[&unloaded.equilibrium, &loaded.equilibrium]),
             lengths,
         }
@@ -145,7 +172,7 @@ impl Row for Passed {
             "dy_mm",
             "dz_mm",
             "magnitude_mm",
-            "least_stiffness",
+            "least_stiffness_n_per_m",
             "platform_frequency_hz",
             "platform_share",
             "lowest_frequency_hz",
@@ -197,21 +224,19 @@ impl Row for Banded {
         let of_cables =
             of_cables.into_iter().flat_map(|(name, unit)| numbered(name, unit, robot.cables.len()));
         let of_platform =
-            ["dx_mm", "dy_mm", "dz_mm", "magnitude_mm", "least_stiffness", "platform_frequency_hz"];
+            ["dx_mm", "dy_mm", "dz_mm", "magnitude_mm", "least_stiffness_n_per_m", "platform_frequency_hz"];
         let platform = of_platform.into_iter().map(|name| format!("std_{name}"));
         Passed::columns(robot).into_iter().chain(of_cables).chain(platform).collect()
     }
 
     fn cells(&self) -> Vec<String> {
         let Self(passed) = self;
-        let Some(bands) = &passed.standard_deviations else {
+        let Some(std) = &passed.standard_deviations else {
             let empty = vec![String::new(); 2 * passed.lengths.len() + 6];
             return passed.cells().into_iter().chain(empty).collect();
         };
-        let Bands { lengths, tensions, displacement, magnitude, least_stiffness, platform_frequency } = bands;
-        let displacement = displacement.map(|std| 1e3 * std);
-        let numbers = cells(lengths.iter().chain(tensions).chain(&displacement));
-        let others = [magnitude.map(|std| 1e3 * std), *least_stiffness, *platform_frequency];
+        let numbers = cells(std.lengths.iter().chain(&std.tensions).chain(&std.deflection_mm));
+        let others = [std.magnitude_mm, std.least_stiffness, std.platform_frequency_hz];
         let others = others.map(|std| std.map(|std| format!("{std:?}")).unwrap_or_default());
         passed.cells().into_iter().chain(numbers).chain(others).collect()
     }

@@ -138,22 +138,23 @@ struct Answer {
 #[derive(Serialize)]
 struct At {
     frequency_hz: f64,
-    /// Largest amplitude of the point for a force there of any direction [m/N], the norm of those along x, y
-    /// and z. What nothing bounds is infinite here and below, `null` in JSON.
-    amplitude_m_per_n: f64,
-    /// Amplitude in x, y and z for forces in these directions, row by row: real and imaginary part [m/N].
-    per_force: [[[f64; 2]; 3]; 3],
-    /// The same for the length that each winch takes in, cable by cable [m/m].
-    per_shortening: Vec<[[f64; 2]; 3]>,
+    /// Largest amplitude of the point for a force there of any direction, the norm of those along x, y and z.
+    /// What nothing bounds is infinite here and below, `null` in JSON.
+    amplitude_mm_per_n: f64,
+    /// Amplitude in x, y and z for forces in these directions, row by row: real and imaginary part.
+    per_force_mm_per_n: [[[f64; 2]; 3]; 3],
+    /// The same for the length that each winch takes in, cable by cable.
+    per_winch_mm_per_mm: Vec<[[f64; 2]; 3]>,
 }
 
 impl From<&PointMotion> for At {
     fn from(PointMotion { frequency, per_force, per_shortening }: &PointMotion) -> Self {
         Self {
             frequency_hz: *frequency,
-            amplitude_m_per_n: worst_amplitude(per_force),
-            per_force: [0, 1, 2].map(|i| [0, 1, 2].map(|j| [per_force[(i, j)].re, per_force[(i, j)].im])),
-            per_shortening: per_shortening
+            amplitude_mm_per_n: 1e3 * worst_amplitude(per_force),
+            per_force_mm_per_n: [0, 1, 2]
+                .map(|i| [0, 1, 2].map(|j| [1e3 * per_force[(i, j)].re, 1e3 * per_force[(i, j)].im])),
+            per_winch_mm_per_mm: per_shortening
                 .column_iter()
                 .map(|of| [0, 1, 2].map(|i| [of[i].re, of[i].im]))
                 .collect(),
@@ -162,21 +163,21 @@ impl From<&PointMotion> for At {
 }
 
 impl At {
-    /// Amplitudes for forces along the axes, each in its own direction [m/N].
+    /// Amplitudes for forces along the axes, each in its own direction [mm/N].
     fn along(&self) -> [f64; 3] {
-        [0, 1, 2].map(|k| size(&self.per_force[k][k]))
+        [0, 1, 2].map(|k| size(&self.per_force_mm_per_n[k][k]))
     }
 
-    /// Amplitude of the point for each winch [m/m].
+    /// Amplitude of the point for each winch [mm/mm].
     fn of_winches(&self) -> Vec<f64> {
         let norm = |of: &[[f64; 2]; 3]| of.iter().flatten().map(|part| part * part).sum::<f64>().sqrt();
-        self.per_shortening.iter().map(norm).collect()
+        self.per_winch_mm_per_mm.iter().map(norm).collect()
     }
 }
 
 /// The largest amplitude.
 fn peak(frequencies: &[At]) -> Option<&At> {
-    frequencies.iter().max_by(|one, other| one.amplitude_m_per_n.total_cmp(&other.amplitude_m_per_n))
+    frequencies.iter().max_by(|one, other| one.amplitude_mm_per_n.total_cmp(&other.amplitude_mm_per_n))
 }
 
 /// Whether the natural motion nearest to the largest amplitude is one of the cables.
@@ -196,9 +197,9 @@ fn size([re, im]: &[f64; 2]) -> f64 {
     re.hypot(*im)
 }
 
-/// An amplitude [m/N] in mm/N, or that nothing bounds it.
-fn millimetres(value: f64) -> String {
-    if value.is_finite() { significant(1e3 * value, 3) } else { NO_BOUND.to_owned() }
+/// An amplitude [mm/N], or that nothing bounds it.
+fn bounded(value: f64) -> String {
+    if value.is_finite() { significant(value, 3) } else { NO_BOUND.to_owned() }
 }
 
 /// A number of a table, empty where nothing bounds it.
@@ -220,8 +221,8 @@ impl Answer {
 
     /// Frequencies whose amplitude no neighbour exceeds, and those without a bound, the largest first.
     fn peaks(&self) -> Vec<&At> {
-        let sizes: Vec<f64> = self.frequencies.iter().map(|at| at.amplitude_m_per_n).collect();
-        let without_bound = |at: &At| largest_of(&at.of_winches()).max(at.amplitude_m_per_n).is_infinite();
+        let sizes: Vec<f64> = self.frequencies.iter().map(|at| at.amplitude_mm_per_n).collect();
+        let without_bound = |at: &At| largest_of(&at.of_winches()).max(at.amplitude_mm_per_n).is_infinite();
         let is_peak = |k: usize| {
             let is_between = k + 1 < sizes.len();
             without_bound(&self.frequencies[k])
@@ -229,28 +230,28 @@ impl Answer {
         };
         let mut peaks: Vec<&At> =
             (1..sizes.len()).filter(|k| is_peak(*k)).map(|k| &self.frequencies[k]).collect();
-        peaks.sort_by(|one, other| other.amplitude_m_per_n.total_cmp(&one.amplitude_m_per_n));
+        peaks.sort_by(|one, other| other.amplitude_mm_per_n.total_cmp(&one.amplitude_mm_per_n));
         peaks
     }
 
     fn print(&self, heading: &str) {
         if let (Some(still), Some(most)) = (self.frequencies.first(), self.peak()) {
-            let at_rest = match millimetres(still.amplitude_m_per_n).as_str() {
+            let at_rest = match bounded(still.amplitude_mm_per_n).as_str() {
                 NO_BOUND => "at rest nothing resists it".to_owned(),
                 at_rest => format!("at rest it moves it by {at_rest} mm/N"),
             };
-            let most_of = match millimetres(most.amplitude_m_per_n).as_str() {
+            let most_of = match bounded(most.amplitude_mm_per_n).as_str() {
                 NO_BOUND => "without a bound".to_owned(),
                 most => format!("by up to {most} mm/N"),
             };
             let at = format!("at {:.4} Hz", most.frequency_hz);
-            if self.is_without_air() && most.amplitude_m_per_n.is_finite() {
+            if self.is_without_air() && most.amplitude_mm_per_n.is_finite() {
                 let at_rest = at_rest.replace("it moves it", "a force moves the point");
                 print_sentence(&format!("{heading}: no bound is known without drag; {at_rest}."));
                 print_sentence(&format!(
                     "The largest peak, {} mm/N {at}, is one of the cables, which nothing damps across their \
                      stretch: it is far above a real one; --with drag=RATE.",
-                    millimetres(most.amplitude_m_per_n)
+                    bounded(most.amplitude_mm_per_n)
                 ));
             } else {
                 print_sentence(&format!("{heading}: a force shakes the point {most_of}, {at}; {at_rest}."));
@@ -281,10 +282,10 @@ impl Answer {
         let mut rows = table(&names);
         for at in peaks.iter().take(LISTED) {
             let winches = largest_of(&at.of_winches());
-            let along = at.along().map(millimetres).join(" ");
+            let along = at.along().map(bounded).join(" ");
             let cells = [
                 format!("{:.4}", at.frequency_hz),
-                millimetres(at.amplitude_m_per_n),
+                bounded(at.amplitude_mm_per_n),
                 along,
                 if winches.is_finite() { decimal(winches, 2) } else { NO_BOUND.to_owned() },
             ];
@@ -298,12 +299,12 @@ impl Answer {
 
     /// A line of CSV for each frequency.
     fn print_table(&self) {
-        let cables = self.frequencies.first().map_or(0, |at| at.per_shortening.len());
-        let winches = (1..=cables).map(|i| format!("winch_{i}_m_per_m"));
-        let names = ["frequency_hz", "amplitude_m_per_n", "x_m_per_n", "y_m_per_n", "z_m_per_n"];
+        let cables = self.frequencies.first().map_or(0, |at| at.per_winch_mm_per_mm.len());
+        let winches = (1..=cables).map(|i| format!("winch_{i}_mm_per_mm"));
+        let names = ["frequency_hz", "amplitude_mm_per_n", "x_mm_per_n", "y_mm_per_n", "z_mm_per_n"];
         print_record(&names.map(str::to_owned).into_iter().chain(winches).collect::<Vec<_>>());
         for at in &self.frequencies {
-            let numbers = [at.frequency_hz, at.amplitude_m_per_n].into_iter().chain(at.along());
+            let numbers = [at.frequency_hz, at.amplitude_mm_per_n].into_iter().chain(at.along());
             let numbers = numbers.chain(at.of_winches());
             print_record(&numbers.map(cell).collect::<Vec<_>>());
         }
@@ -311,12 +312,12 @@ impl Answer {
 
     fn figure(&self, robot: &Robot, sheet: Sheet) -> Result<String, ProgramError> {
         let curve = |name: &str, of: &dyn Fn(&At) -> f64| {
-            let points = self.frequencies.iter().map(|at| (at.frequency_hz, 1e3 * of(at)));
+            let points = self.frequencies.iter().map(|at| (at.frequency_hz, of(at)));
             let points = points.filter(|(_, amplitude)| amplitude.is_finite()).collect();
             (name.to_owned(), points)
         };
         let curves = [
-            curve("worst direction", &|at| at.amplitude_m_per_n),
+            curve("worst direction", &|at| at.amplitude_mm_per_n),
             curve("x", &|at| at.along()[0]),
             curve("y", &|at| at.along()[1]),
             curve("z", &|at| at.along()[2]),
@@ -331,15 +332,15 @@ impl Answer {
 
 impl Row for Answer {
     fn columns(_: &Robot) -> Vec<String> {
-        ["peak_frequency_hz", "peak_m_per_n", "static_m_per_n"].map(str::to_owned).into()
+        ["amplitude_at_hz", "amplitude_mm_per_n", "static_mm_per_n"].map(str::to_owned).into()
     }
 
     fn cells(&self) -> Vec<String> {
         let number = |value: Option<f64>| value.map_or_else(String::new, cell);
         vec![
             number(self.peak().map(|at| at.frequency_hz)),
-            number(self.peak().map(|at| at.amplitude_m_per_n)),
-            number(self.frequencies.first().map(|at| at.amplitude_m_per_n)),
+            number(self.peak().map(|at| at.amplitude_mm_per_n)),
+            number(self.frequencies.first().map(|at| at.amplitude_mm_per_n)),
         ]
     }
 
@@ -349,7 +350,7 @@ impl Row for Answer {
 
     fn brief(&self) -> Vec<Brief> {
         let peak = self.peak();
-        let most = Brief::Most("peak", "mm/N", peak.map(|at| 1e3 * at.amplitude_m_per_n));
+        let most = Brief::Most("peak", "mm/N", peak.map(|at| at.amplitude_mm_per_n));
         vec![most, Brief::Shown("peak at", "Hz", peak.map(|at| at.frequency_hz))]
     }
 

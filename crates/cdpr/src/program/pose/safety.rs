@@ -83,7 +83,9 @@ struct Answer {
     tensions: Vec<f64>,
     exit_tensions: Vec<f64>,
     /// Greatest tension allowed, and breaking force of each cable, `null` where it is not known [N].
+    #[serde(rename = "greatest_allowed_n")]
     greatest_allowed: Vec<f64>,
+    #[serde(rename = "breaking_forces_n")]
     breaking_forces: Vec<Option<f64>>,
     /// The greatest tension before the break, and the safety factor then.
     greatest_tension: Greatest,
@@ -91,7 +93,7 @@ struct Answer {
     factor: Factor,
     broken: Vec<Case>,
     /// Height that is taken for the ground where the robot file has none, if the platform comes below it [m].
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "assumed_ground_m", skip_serializing_if = "Option::is_none")]
     assumed_ground: Option<f64>,
     /// The pose with its free coordinates as they are found.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "as_numbers")]
@@ -191,11 +193,11 @@ impl Answer {
                 self.broken.len()
             ),
         };
-        let moved = self.greatest(|rest| rest.moved).zip(self.greatest(|rest| rest.turned_deg));
+        let moved = self.greatest(|rest| rest.moved_mm).zip(self.greatest(|rest| rest.turned_deg));
         let moved = moved.map(|((moved, far), (turned, most))| {
             // The rotation of a point mass is held.
             let is_held = turned == 0.0;
-            let (moved, turned) = (significant(moved, 4), significant(turned, 4));
+            let (moved, turned) = (significant(1e-3 * moved, 4), significant(turned, 4));
             let turned = format!(" and turns up to {turned} degrees (without {})", most.name());
             let turned = if is_held { String::new() } else { turned };
             format!("It moves up to {moved} m (without {}){turned}.", far.name())

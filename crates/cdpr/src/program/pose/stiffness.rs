@@ -31,12 +31,14 @@ struct Answer {
     is_point: bool,
     /// Eigenvalues of the symmetric part, the softest motion first.
     eigenvalues: Vec<Eigenvalue>,
+    #[serde(rename = "least_stiffness_n_per_m")]
     least_stiffness: f64,
     stable: bool,
     /// Motions that nothing resists.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     neutral: Vec<Neutral>,
     /// Characteristic length ℓ, which makes rotations comparable with translations [m].
+    #[serde(rename = "characteristic_length_m")]
     characteristic_length: f64,
     /// The pose with its free coordinates as they are found.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "as_numbers")]
@@ -49,6 +51,7 @@ struct Answer {
 #[derive(Serialize)]
 struct Eigenvalue {
     /// Stiffness of the motion [N/m].
+    #[serde(rename = "stiffness_n_per_m")]
     stiffness: f64,
     /// Translation of P [m/m], with `|translation|² + ℓ² |rotation|² = 1`.
     translation: [f64; 3],
@@ -58,9 +61,9 @@ struct Eigenvalue {
 
 impl Row for Answer {
     fn columns(robot: &Robot) -> Vec<String> {
-        let names = ["least_stiffness", "characteristic_length_m"].into_iter().map(str::to_owned);
-        let eigenvalues = (1..=robot.freedoms().count()).map(|i| format!("eigenvalue_{i}"));
-        let entries = (1..=6).flat_map(|row| (1..=6).map(move |column| format!("k_{row}{column}")));
+        let names = ["least_stiffness_n_per_m", "characteristic_length_m"].into_iter().map(str::to_owned);
+        let eigenvalues = (1..=robot.freedoms().count()).map(|i| format!("eigenvalue_{i}_n_per_m"));
+        let entries = (1..=6).flat_map(|row| (1..=6).map(move |column| entry(row, column)));
         names.chain(eigenvalues).chain(entries).collect()
     }
 
@@ -83,6 +86,17 @@ impl Row for Answer {
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.out_of_limits]
     }
+}
+
+/// Name of the entry of K in a row and a column from 1, which the first three of both have of translations.
+fn entry(row: usize, column: usize) -> String {
+    let unit = match (row <= 3, column <= 3) {
+        (true, true) => "n_per_m",
+        (true, false) => "n_per_rad",
+        (false, true) => "n",
+        (false, false) => "nm_per_rad",
+    };
+    format!("k_{row}{column}_{unit}")
 }
 
 impl Answer {

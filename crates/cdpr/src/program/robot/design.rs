@@ -13,7 +13,7 @@ use crate::program::robot::design::words::{
 };
 use cdpr_assess::{
     ActiveDemand, BestDesign, BestOfTypes, ChosenCable, Design, DesignProblem, DesignedVariable, Front,
-    FrontPoint, Goal, Over, design, front,
+    FrontPoint, Goal, design, front,
 };
 use cdpr_robot::{Robot, counted, shown, significant};
 use std::path::PathBuf;
@@ -91,18 +91,12 @@ fn answer_front(settings: &Settings, robot: &Robot, found: &Front) -> Result<End
 
 /// A front as CSV: a row for each point.
 fn print_table(found: &Front) {
-    let of = |i: usize| {
-        let name = found.outputs[i].name();
-        match found.over[i] {
-            _ if found.outputs[i].is_of_all_poses() => name.to_owned(),
-            Over::Mean => format!("mean_{name}"),
-            Over::Worst => format!("worst_{name}"),
-        }
-    };
-    let columns = [of(0), of(1), "exchange".to_owned(), "kkt_residual".to_owned(), "optimal".to_owned()];
+    let columns = ["exchange", "kkt_residual", "optimal"].map(str::to_owned);
     let variables = found.variables.iter().map(|(name, _)| name.clone());
     let cables = has_types(found).then(|| "cables".to_owned());
-    print_record(&columns.into_iter().chain(variables).chain(cables).collect::<Vec<_>>());
+    print_record(
+        &found.names.iter().cloned().chain(columns).chain(variables).chain(cables).collect::<Vec<_>>(),
+    );
     for point in &found.points {
         let FrontPoint { objectives, variables, exchange, kkt_residual, optimal, .. } = point;
         let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
@@ -162,11 +156,16 @@ fn print_front(robot: &Robot, found: &Front) {
     if !doubtful.is_empty() {
         print_sentence(&format!("No local optimum, by the KKT residual: {}.", doubtful.join(", ")));
     }
-    let units = found.outputs.map(|goal| if goal.unit().is_empty() { "1" } else { goal.unit() });
+    let exchange = match found.outputs.map(Goal::unit) {
+        ["", ""] => "exchange".to_owned(),
+        [unit, ""] => format!("exchange [{unit}]"),
+        ["", unit] => format!("exchange [1/({unit})]"),
+        [one, two] => format!("{one} per {two}"),
+    };
     let [one, two] = found.outputs.map(titled);
     let mut header = vec!["".to_owned(), one, two];
     if found.starts > 0 {
-        header.push(format!("{} per {}", units[0], units[1]));
+        header.push(exchange);
     }
     let named = if found.variables.len() > MOST { &[][..] } else { &found.variables[..] };
     header.extend(named.iter().map(|(name, unit)| format!("{} [{unit}]", shown(name))));

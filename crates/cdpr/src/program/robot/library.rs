@@ -17,11 +17,12 @@ pub(crate) struct Settings {
     printing: Printing,
 }
 
-/// All that comes with the program.
+/// What comes with the program: a row of a table.
 #[derive(Serialize)]
-struct Library {
-    robots: Vec<RobotEntry>,
-    cables: Vec<CableEntry>,
+#[serde(tag = "kind", rename_all = "lowercase")]
+enum Entry {
+    Robot(RobotEntry),
+    Cable(CableEntry),
 }
 
 /// A robot of the library.
@@ -30,11 +31,15 @@ struct RobotEntry {
     name: &'static str,
     title: String,
     cables: usize,
-    /// Mass of the platform [kg].
+    pulleys: usize,
+    /// Free motions of the platform.
+    free_motions: usize,
+    /// Mass of the platform.
     mass_kg: f64,
-    /// Sides of the box around the exit points [m].
-    extent_m: [f64; 3],
+    /// Sides of the box around the exit points.
+    exit_extent_m: [f64; 3],
     grade: Option<Grade>,
+    source: Option<String>,
 }
 
 /// A cable of the catalogue.
@@ -43,18 +48,21 @@ struct CableEntry {
     name: &'static str,
     title: String,
     section_mm2: f64,
+    #[serde(rename = "linear_density_kg_per_m")]
     linear_density: f64,
     modulus_gpa: f64,
+    #[serde(rename = "breaking_force_n")]
     breaking_force: Option<f64>,
     source: Option<String>,
 }
 
 pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let robots = ROBOTS.iter().map(|file| RobotEntry::open(file.name)).collect::<Result<_, _>>()?;
-    let cables = CABLES.iter().map(|file| CableEntry::open(file.name)).collect::<Result<_, _>>()?;
-    Ok(settings.printing.format().print(&Library { robots, cables }, |Library { robots, cables }| {
-        print_robots(robots);
-        print_cables(cables);
+    let robots = ROBOTS.iter().map(|file| RobotEntry::open(file.name).map(Entry::Robot));
+    let cables = CABLES.iter().map(|file| CableEntry::open(file.name).map(Entry::Cable));
+    let entries: Vec<Entry> = robots.chain(cables).collect::<Result<_, _>>()?;
+    Ok(settings.printing.format().print(&entries, |entries| {
+        print_robots(entries);
+        print_cables(entries);
         println!("cdpr robot show NAME prints what a robot is, its source and what is assumed");
     })?)
 }
@@ -65,10 +73,13 @@ impl RobotEntry {
         Ok(Self {
             name,
             cables: robot.cables.len(),
+            pulleys: robot.cables.iter().filter(|cable| cable.pulley.is_some()).count(),
+            free_motions: robot.freedoms().count(),
             mass_kg: robot.platform.mass,
-            extent_m: extent(&exit_points(&robot)),
+            exit_extent_m: extent(&exit_points(&robot)),
             grade: robot.provenance.grade,
             title: robot.name,
+            source: robot.provenance.source,
         })
     }
 }
@@ -102,10 +113,11 @@ pub(super) fn exit_points(robot: &Robot) -> Vec<Vector3<f64>> {
     robot.cables.iter().map(|cable| cable.exit_point).collect()
 }
 
-fn print_robots(robots: &[RobotEntry]) {
+fn print_robots(entries: &[Entry]) {
     let mut table = table(&["name", "cables", "mass [kg]", "exit points [m]", "grade"]);
-    for robot in robots {
-        let [x, y, z] = robot.extent_m;
+    for entry in entries {
+        let Entry::Robot(robot) = entry else { continue };
+        let [x, y, z] = robot.exit_extent_m;
         table.add_row([
             robot.name.to_owned(),
             robot.cables.to_string(),
@@ -120,9 +132,15 @@ fn print_robots(robots: &[RobotEntry]) {
     );
 }
 
-fn print_cables(cables: &[CableEntry]) {
+fn print_cables(entries: &[Entry]) {
+    let cables = || {
+        entries.iter().filter_map(|entry| match entry {
+            Entry::Cable(cable) => Some(cable),
+            Entry::Robot(_) => None,
+        })
+    };
     let mut table = table(&["name", "section [mm²]", "mass [kg/m]", "E [GPa]", "breaks at [N]"]);
-    for cable in cables {
+    for cable in cables() {
         table.add_row([
             cable.name.to_owned(),
             format!("{:.4}", cable.section_mm2),
@@ -132,7 +150,7 @@ fn print_cables(cables: &[CableEntry]) {
         ]);
     }
     println!("{table}");
-    for cable in cables {
+    for cable in cables() {
         let source = shown(cable.source.as_deref().unwrap_or("source not known"));
         print_sentence(&format!("{}: {source}", cable.name));
     }

@@ -17,29 +17,44 @@ pub(crate) struct Settings {
     printing: Printing,
 }
 
-/// A robot, in SI units.
+/// A robot.
 #[derive(Serialize)]
 struct Shown {
     name: String,
     cables: usize,
     /// Cables whose exit point is on a pulley.
     pulleys: usize,
+    /// Least and greatest radius of the pulleys, to the middle of the cable; `None` without pulleys.
+    #[serde(rename = "pulley_radius_m")]
+    pulley_radius: Option<[f64; 2]>,
+    /// Least and greatest stretched length between winch and exit point; `None` where no cable has one.
+    #[serde(rename = "lead_m")]
+    lead: Option<[f64; 2]>,
     /// Free motions of the platform.
     free_motions: usize,
+    #[serde(rename = "mass_kg")]
     mass: f64,
+    #[serde(rename = "center_of_mass_m")]
     center_of_mass: [f64; 3],
     has_inertia: bool,
     #[serde(skip)]
     is_point: bool,
     /// Sides of the boxes around the exit points and the anchor points.
+    #[serde(rename = "exit_extent_m")]
     exit_points: [f64; 3],
+    #[serde(rename = "anchor_extent_m")]
     anchor_points: [f64; 3],
     /// Least and greatest value over the cables.
+    #[serde(rename = "linear_density_kg_per_m")]
     linear_density: [f64; 2],
+    #[serde(rename = "axial_stiffness_n")]
     axial_stiffness: [f64; 2],
+    #[serde(rename = "min_tension_n")]
     min_tension: [f64; 2],
+    #[serde(rename = "max_tension_n")]
     max_tension: [f64; 2],
     /// Least and greatest breaking force that is known, and cables whose own is not known.
+    #[serde(rename = "breaking_force_n")]
     breaking_force: Option<[f64; 2]>,
     unknown_breaking_forces: usize,
     /// Ends at which the greatest tension is limited.
@@ -48,6 +63,7 @@ struct Shown {
     has_reference: bool,
     has_laws: bool,
     /// Least and greatest EA of the segments of elastic laws.
+    #[serde(rename = "law_stiffness_n")]
     law_stiffness: Option<[f64; 2]>,
     grade: Option<Grade>,
     source: Option<String>,
@@ -65,11 +81,17 @@ impl Shown {
         let limits = || (0..cables.len()).map(|i| robot.limits(i));
         let ends = (0..cables.len()).map(|i| robot.max_at(i));
         let anchor_points: Vec<_> = cables.iter().map(|cable| cable.anchor_point).collect();
+        let radii: Vec<f64> = cables.iter().filter_map(|cable| Some(cable.pulley?.radius)).collect();
         let breaking = cables.iter().filter_map(|cable| cable.properties.breaking_force);
         Self {
             name: robot.name.clone(),
             cables: cables.len(),
-            pulleys: cables.iter().filter(|cable| cable.pulley.is_some()).count(),
+            pulleys: radii.len(),
+            pulley_radius: (!radii.is_empty()).then(|| range(radii.iter().copied())),
+            lead: cables
+                .iter()
+                .any(|cable| cable.lead != 0.0)
+                .then(|| range(cables.iter().map(|cable| cable.lead))),
             free_motions: robot.freedoms().count(),
             mass: robot.platform.mass,
             center_of_mass: robot.platform.center_of_mass.into(),
@@ -148,8 +170,11 @@ fn print(robot: &Shown) {
     let law = robot
         .law_stiffness
         .map_or_else(String::new, |law| format!(" by youngs_modulus, {} N by the elastic law", words(law)));
+    let radius = robot.pulley_radius;
+    let radius = radius.map_or_else(String::new, |radius| format!(" of radius {} m", words(radius)));
+    let lead = robot.lead.map_or_else(String::new, |lead| format!("; leads of {} m", words(lead)));
     print_sentence(&format!(
-        "cables: {} kg/m, EA {} N{law}; {}",
+        "cables: {} kg/m, EA {} N{law}; {}{radius}{lead}",
         words(robot.linear_density),
         words(robot.axial_stiffness),
         counted(robot.pulleys, "pulley")

@@ -6,15 +6,6 @@ use cdpr_assess::{Block, Figure, WrenchSet};
 use cdpr_statics::StaticsError;
 use serde::Serialize;
 
-/// Both ways to bear a load.
-#[derive(Serialize)]
-pub(super) struct Ways {
-    /// Tensions recomputed.
-    pub(super) recomputed: Shown,
-    /// Lengths kept.
-    pub(super) kept: Shown,
-}
-
 /// A figure, or why it does not exist.
 #[derive(Serialize)]
 pub(super) struct Shown {
@@ -42,6 +33,7 @@ pub(super) struct Blocking {
     /// `min`, `max`, `breaking_force` or `strain`.
     pub(super) limit: &'static str,
     /// The limit [N].
+    #[serde(rename = "value_n")]
     pub(super) value: f64,
     /// By how much the figure grows where the limit gives way [kg/N, N/N].
     #[serde(skip_serializing_if = "Option::is_none")]

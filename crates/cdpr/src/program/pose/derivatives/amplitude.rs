@@ -50,10 +50,10 @@ pub(super) struct Amplitude {
     inertia_assumed: bool,
     /// Missing where `without` says why.
     #[serde(skip_serializing_if = "Option::is_none")]
-    amplitude_m_per_n: Option<f64>,
-    /// By each parameter, in their order [m/N per SI unit].
+    amplitude_mm_per_n: Option<f64>,
+    /// By each parameter, in their order [mm/N per SI unit].
     #[serde(skip_serializing_if = "Option::is_none")]
-    derivatives_m_per_n: Option<Vec<f64>>,
+    derivatives_mm_per_n: Option<Vec<f64>>,
     /// Why the derivatives are absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     without: Option<String>,
@@ -73,7 +73,8 @@ impl Amplitude {
                 Ok(of) => {
                     let mut derivatives = of.with_lengths(&found.lengths);
                     derivatives.truncate(parameters);
-                    (Some(of.amplitude), Some(derivatives), None)
+                    let derivatives = derivatives.iter().map(|slope| 1e3 * slope).collect();
+                    (Some(1e3 * of.amplitude), Some(derivatives), None)
                 }
                 Err(DynamicsError::Statics(error @ StaticsError::NoDerivative { .. })) => {
                     (None, None, Some(error.to_string()))
@@ -86,8 +87,8 @@ impl Amplitude {
             drag_per_s: at.damping.drag,
             along: at.along.map(Axis::letter),
             inertia_assumed: matches!(robot, Cow::Owned(_)),
-            amplitude_m_per_n: amplitude,
-            derivatives_m_per_n: derivatives,
+            amplitude_mm_per_n: amplitude,
+            derivatives_mm_per_n: derivatives,
             without,
         })
     }
@@ -96,7 +97,8 @@ impl Amplitude {
     pub(super) fn print(&self, inputs: &[Parameter]) {
         let Self { frequency_hz, damping_s, drag_per_s, along, .. } = self;
         self.without.iter().for_each(|reason| print_sentence(reason));
-        let (Some(amplitude), Some(derivatives)) = (self.amplitude_m_per_n, &self.derivatives_m_per_n) else {
+        let (Some(amplitude), Some(derivatives)) = (self.amplitude_mm_per_n, &self.derivatives_mm_per_n)
+        else {
             return;
         };
         let [direction, motion] = along.map_or_else(
@@ -106,11 +108,11 @@ impl Amplitude {
         print_sentence(&format!(
             "At {frequency_hz} Hz a force {direction} shakes the point by {} mm/N{motion}; damping of the \
              cables: stretch {damping_s} s, drag {drag_per_s} 1/s.",
-            significant(1e3 * amplitude, 4)
+            significant(amplitude, 4)
         ));
         let step = |(parameter, slope): (&Parameter, &f64)| {
             let (unit, step) = handy_unit(parameter);
-            (parameter.to_string(), 1e6 * slope * step, unit)
+            (parameter.to_string(), 1e3 * slope * step, unit)
         };
         let mut rows: Vec<_> = inputs.iter().zip(derivatives).map(step).collect();
         rows.sort_by(|one, other| other.1.abs().total_cmp(&one.1.abs()));

@@ -39,9 +39,10 @@ pub(super) struct Slopes {
     #[serde(skip_serializing_if = "Option::is_none")]
     deflection_mm: Option<Vec<[f64; 3]>>,
     /// Derivative of the unstrained length of each cable [m].
+    #[serde(rename = "lengths")]
     unstrained_lengths: Vec<Vec<f64>>,
     /// Derivative of the lowest stiffness with the load [N/m].
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "least_stiffness_n_per_m", skip_serializing_if = "Option::is_none")]
     least_stiffness: Option<Vec<f64>>,
     /// Derivative of the frequency of the platform with the load [Hz].
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -104,8 +105,9 @@ struct Slope {
     magnitude_mm: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     deflection_mm: Option<[f64; 3]>,
+    #[serde(rename = "lengths")]
     unstrained_lengths: Vec<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "least_stiffness_n_per_m", skip_serializing_if = "Option::is_none")]
     least_stiffness: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     frequency_hz: Option<f64>,
@@ -305,7 +307,7 @@ impl Row for Slopes {
         let parameters = Parameter::of(robot);
         let lengths = (1..=robot.cables.len()).map(|i| format!("length_{i}_m"));
         let displacement = ["magnitude_mm", "dx_mm", "dy_mm", "dz_mm"].map(str::to_owned);
-        let softest = ["least_stiffness", "frequency_hz"].map(str::to_owned);
+        let softest = ["least_stiffness_n_per_m", "frequency_hz"].map(str::to_owned);
         let outputs: Vec<_> = displacement.into_iter().chain(lengths).chain(softest).collect();
         let slopes = |parameter| {
             let slope = |output| format!("{output}/{parameter}");

@@ -41,8 +41,20 @@ pub(super) struct Answer {
 #[derive(Serialize)]
 #[serde(untagged)]
 pub(super) enum Proof {
-    Given { position: f64, rotation: f64, force: f64, least_stiffness: f64, stable: bool },
-    None { error: Failure },
+    Given {
+        #[serde(rename = "position_m")]
+        position: f64,
+        #[serde(rename = "rotation_rad")]
+        rotation: f64,
+        #[serde(rename = "force_n")]
+        force: f64,
+        #[serde(rename = "least_stiffness_n_per_m")]
+        least_stiffness: f64,
+        stable: bool,
+    },
+    None {
+        error: Failure,
+    },
 }
 
 /// Solves a case; what is doubtful about the answer, which is called `name`, is added to the doubts.

@@ -28,7 +28,7 @@ pub(super) struct Case {
     exit_tensions: IgnoredAny,
     cable_forces: IgnoredAny,
     stable: IgnoredAny,
-    least_stiffness: IgnoredAny,
+    least_stiffness_n_per_m: IgnoredAny,
     neutral: IgnoredAny,
     report: IgnoredAny,
     out_of_limits: IgnoredAny,

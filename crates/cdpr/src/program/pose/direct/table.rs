@@ -154,7 +154,8 @@ impl Rows<'_> {
     fn own_names(&self) -> Vec<String> {
         let cables = self.robot.cables.len();
         let tensions = ["tension", "exit_tension"].into_iter().flat_map(|name| numbered(name, "n", cables));
-        let proof = if self.how.certify { &["certified_m", "certified_rad"][..] } else { &[] };
+        let proof =
+            if self.how.certify { &["certificate_position_m", "certificate_rotation_rad"][..] } else { &[] };
         let others = if self.how.starts.is_some() { &["others"][..] } else { &[] };
         let more = ["stable", "least_stiffness_n_per_m"].iter().chain(proof).chain(others).chain(&["reason"]);
         ["status".to_owned()].into_iter().chain(tensions).chain(more.map(ToString::to_string)).collect()

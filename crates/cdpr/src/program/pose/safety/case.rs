@@ -34,12 +34,14 @@ pub(super) enum Motion {
 /// How the platform swings.
 #[derive(Serialize)]
 pub(super) struct Swinging {
-    /// Greatest distance from where it was [m].
-    pub(super) moved: f64,
+    /// Greatest distance from where it was.
+    pub(super) moved_mm: f64,
     /// Whether that was at the end, so that it may move farther.
     pub(super) moves_away: bool,
+    #[serde(rename = "peak_tension")]
     pub(super) greatest_tension: Greatest,
     /// When that is [s].
+    #[serde(rename = "at_s")]
     pub(super) time: f64,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) out_of_limits: Vec<OutOfLimits>,
@@ -47,6 +49,7 @@ pub(super) struct Swinging {
     pub(super) factor: Factor,
     pub(super) below_ground: bool,
     /// Difference of two computations in the tensions [N].
+    #[serde(rename = "peak_difference_n")]
     pub(super) tension_difference: f64,
     /// The safety factor with tensions that are greater by it; `null` where a breaking force is not known.
     pub(super) safety_factor_at_least: Option<f64>,
@@ -95,7 +98,7 @@ pub(super) struct Rest {
     /// Position of P [m] and quaternion, qw first.
     pub(super) position: [f64; 3],
     pub(super) rotation: [f64; 4],
-    pub(super) moved: f64,
+    pub(super) moved_mm: f64,
     pub(super) turned_deg: f64,
     /// At the platform and at the exit points [N], zero for a broken cable.
     pub(super) tensions: Vec<f64>,
@@ -116,6 +119,7 @@ pub(super) struct Rest {
 #[derive(Clone, Copy, Serialize)]
 pub(super) struct Greatest {
     pub(super) cable: usize,
+    #[serde(rename = "tension_n")]
     pub(super) tension: f64,
 }
 
@@ -150,7 +154,7 @@ impl From<BrokenRest> for Rest {
         Self {
             position: rest.pose.position.into(),
             rotation: rest.pose.quaternion(),
-            moved: rest.moved,
+            moved_mm: 1e3 * rest.moved,
             turned_deg: rest.turned.to_degrees(),
             tensions: rest.tensions.iter().map(|ends| ends[0]).collect(),
             exit_tensions: rest.tensions.iter().map(|ends| ends[1]).collect(),
@@ -169,7 +173,7 @@ impl From<Swing> for Swinging {
     fn from(swing: Swing) -> Self {
         let (tension, cable, time) = swing.greatest;
         Self {
-            moved: swing.moved,
+            moved_mm: 1e3 * swing.moved,
             moves_away: swing.moves_away,
             greatest_tension: Greatest { cable: cable + 1, tension },
             time,
@@ -301,7 +305,7 @@ impl Case {
     pub(super) fn at_rest(&self) -> Vec<String> {
         let Some(rest) = &self.rest else { return vec![String::new(); 5] };
         let Greatest { cable, tension } = rest.greatest_tension;
-        let (moved, turned) = (significant(rest.moved, 4), decimal(rest.turned_deg, 2));
+        let (moved, turned) = (significant(1e-3 * rest.moved_mm, 4), decimal(rest.turned_deg, 2));
         vec![moved, turned, significant(tension, 4), cable.to_string(), rest.factor.cell(cable)]
     }
 
@@ -311,10 +315,11 @@ impl Case {
         let rest = self
             .rest
             .as_ref()
-            .map(|rest| [fitting(rest.moved, 4), fitting(rest.greatest_tension.tension, 4)]);
+            .map(|rest| [fitting(1e-3 * rest.moved_mm, 4), fitting(rest.greatest_tension.tension, 4)]);
         let swing = self.swinging().map(|swing| {
             let cable = swing.greatest_tension.cable;
-            let moved = format!("{}{}", if swing.moves_away { "> " } else { "" }, fitting(swing.moved, 4));
+            let moved =
+                format!("{}{}", if swing.moves_away { "> " } else { "" }, fitting(1e-3 * swing.moved_mm, 4));
             let at_rest = self.rest.as_ref().and_then(|rest| rest.factor.value);
             // The rest decides where the motion has surely less.
             let factor = match (at_rest, swing.safety_factor_at_least) {

@@ -71,16 +71,18 @@ struct ProvedCase {
     /// under the design loads, and its breaking force over γ_R [N].
     #[serde(skip_serializing_if = "Option::is_none")]
     cable: Option<usize>,
+    #[serde(rename = "tension_n")]
     tension: Option<f64>,
+    #[serde(rename = "design_resistance_n")]
     design_resistance: Option<f64>,
     /// `null` where the case is open and what is known does not exceed 1.
     utilization: Option<f64>,
     /// Why the case is open.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
-    /// From where the platform is held without factors [m].
+    /// From where the platform is held without factors.
     #[serde(skip_serializing_if = "Option::is_none")]
-    moved: Option<f64>,
+    moved_mm: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     turned_deg: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -148,7 +150,7 @@ impl ProvedCase {
             design_resistance: known.map(|most| most.resistance),
             utilization: case.utilization().map(|most| most.value()),
             reason: case.open(),
-            moved: rest.map(|rest| rest.moved),
+            moved_mm: rest.map(|rest| 1e3 * rest.moved),
             turned_deg: rest.map(|rest| rest.turned.to_degrees()),
             below_ground: rest.map(|rest| rest.below_ground),
             tensions: rest.map(|rest| rest.tensions.clone()).unwrap_or_default(),
@@ -170,7 +172,7 @@ impl ProvedCase {
             self.cable.map_or_else(String::new, |cable| cable.to_string()),
             force(self.design_resistance),
             self.utilization.map_or_else(String::new, |most| decimal(most, 3)),
-            force(self.moved),
+            force(self.moved_mm.map(|moved| 1e-3 * moved)),
             self.reason.clone().filter(|_| has_reasons).unwrap_or_default(),
         ]
     }

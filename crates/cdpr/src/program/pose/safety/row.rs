@@ -14,7 +14,7 @@ use cdpr_robot::{Pose, Robot};
 const CASES: [&str; 24] = [
     "case",
     "broken",
-    "wind_towards_deg",
+    "azimuth_deg",
     "ending",
     "permanent",
     "variable",
@@ -27,13 +27,13 @@ const CASES: [&str; 24] = [
     "verdict",
     "safety_factor",
     "safety_factor_cable",
-    "moved_m",
+    "moved_mm",
     "turned_deg",
     "slack",
     "below_ground",
-    "swing_moved_m",
+    "swing_moved_mm",
     "peak_tension_n",
-    "peak_cable",
+    "peak_tension_cable",
     "peak_difference_n",
     "reason",
 ];
@@ -95,11 +95,11 @@ impl Answer {
             if self.proof.is_some() { Verdict::of(case).word().to_owned() } else { String::new() },
             number(factor.value),
             factor.cable.map_or_else(String::new, |cable| cable.to_string()),
-            number(rest.map(|rest| rest.moved)),
+            number(rest.map(|rest| 1e3 * rest.moved)),
             number(rest.map(|rest| rest.turned.to_degrees())),
             joined(&slack),
             rest.map_or_else(String::new, |rest| rest.below_ground.to_string()),
-            number(swing.map(|swing| swing.moved)),
+            number(swing.map(|swing| swing.moved_mm)),
             number(swing.map(|swing| swing.greatest_tension.tension)),
             swing.map_or_else(String::new, |swing| swing.greatest_tension.cable.to_string()),
             number(swing.map(|swing| swing.tension_difference)),
@@ -111,7 +111,7 @@ impl Answer {
 impl Row for Answer {
     fn columns(_: &Robot) -> Vec<String> {
         [
-            "moved_m",
+            "moved_mm",
             "moved_without",
             "turned_deg",
             "turned_without",
@@ -124,7 +124,7 @@ impl Row for Answer {
             "overloaded_without",
             "below_ground_without",
             "no_rest_without",
-            "swing_moved_m",
+            "swing_moved_mm",
             "peak_tension_n",
             "peak_tension_cable",
             "peak_tension_without",
@@ -159,9 +159,9 @@ impl Row for Answer {
             self.names(Case::is_below_ground),
             self.names(|case| case.rest.is_none()),
         ];
-        let [moved, turned] = [self.greatest(|rest| rest.moved), self.greatest(|rest| rest.turned_deg)];
+        let [moved, turned] = [self.greatest(|rest| rest.moved_mm), self.greatest(|rest| rest.turned_deg)];
         let swings: Vec<_> = self.broken.iter().filter_map(|case| Some((case.swinging()?, case))).collect();
-        let far = swings.iter().map(|(swing, _)| swing.moved).max_by(f64::total_cmp);
+        let far = swings.iter().map(|(swing, _)| swing.moved_mm).max_by(f64::total_cmp);
         let tension = |swing: &Swinging| swing.greatest_tension.tension;
         let peak = swings.iter().max_by(|a, b| tension(a.0).total_cmp(&tension(b.0)));
         let [value, case] = without(peak.map(|(swing, case)| (tension(swing), *case)));
@@ -189,7 +189,7 @@ impl Row for Answer {
     }
 
     fn brief(&self) -> Vec<Brief> {
-        let moved = self.greatest(|rest| rest.moved).map(|(moved, _)| moved);
+        let moved = self.greatest(|rest| rest.moved_mm).map(|(moved, _)| 1e-3 * moved);
         let tension = self.greatest(|rest| rest.greatest_tension.tension).map(|(tension, _)| tension);
         vec![Brief::Most("moves", "m", moved), Brief::Most("tension", "N", tension)]
     }

@@ -11,21 +11,21 @@ use serde::Serialize;
 
 /// Its columns in a table.
 pub(super) const COLUMNS: [&str; 8] = [
-    "weather_moved_m",
+    "weather_moved_mm",
     "weather_azimuth_deg",
-    "weather_tension_n",
-    "weather_tension_cable",
-    "weather_tension_azimuth_deg",
+    "weather_greatest_tension_n",
+    "weather_greatest_tension_cable",
+    "weather_greatest_tension_azimuth_deg",
     "weather_safety_factor",
     "weather_safety_factor_cable",
-    "weather_wrong",
+    "weather_reason",
 ];
 
 /// The platform in wind of all directions that were looked at, or of one.
 #[derive(Serialize)]
 pub(super) struct InWeather {
     /// Speed of a wind from any direction [m/s].
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "speed_m_per_s", skip_serializing_if = "Option::is_none")]
     speed: Option<f64>,
     #[serde(skip)]
     tilted: bool,
@@ -84,9 +84,9 @@ struct OneWind {
     /// Position of P [m] and quaternion, qw first.
     position: [f64; 3],
     rotation: [f64; 4],
-    /// From where the platform is held without the weather [m].
-    displacement: [f64; 3],
-    moved: f64,
+    /// From where the platform is held without the weather.
+    displacement_mm: [f64; 3],
+    moved_mm: f64,
     turned_deg: f64,
     tensions: Vec<f64>,
     exit_tensions: Vec<f64>,
@@ -106,8 +106,8 @@ impl OneWind {
             azimuth_deg: found.azimuth.map(|azimuth| azimuth.to_degrees().rem_euclid(360.0)),
             position: found.rest.pose.position.into(),
             rotation: found.rest.pose.quaternion(),
-            displacement: found.displacement.into(),
-            moved: found.moved(),
+            displacement_mm: (1e3 * found.displacement).into(),
+            moved_mm: 1e3 * found.moved(),
             turned_deg: found.turned.to_degrees(),
             tensions: found.rest.tensions(),
             exit_tensions: found.rest.exit_tensions.clone(),
@@ -206,8 +206,8 @@ impl InWeather {
             azimuth.map_or_else(String::new, |azimuth| format!(" (wind towards {azimuth:.0} degrees)"))
         };
         let farthest = self.farthest.as_ref().map(|one| {
-            let [moved, x, y, z] = [one.moved, one.displacement[0], one.displacement[1], one.displacement[2]]
-                .map(|metres| significant(1e3 * metres, 4));
+            let moved = significant(one.moved_mm, 4);
+            let [x, y, z] = one.displacement_mm.map(|along| significant(along, 4));
             format!("The weather moves it up to {moved} mm, by ({x}, {y}, {z}) mm{}.", wind(one.azimuth_deg))
         });
         let is_tightest = |cable: usize, azimuth: Option<f64>| {
@@ -255,7 +255,7 @@ impl InWeather {
         let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
         let (far, tight) = (self.farthest.as_ref(), self.tightest.as_ref());
         vec![
-            number(far.map(|one| one.moved)),
+            number(far.map(|one| one.moved_mm)),
             number(far.and_then(|one| one.azimuth_deg)),
             number(tight.map(|one| one.greatest_tension.tension)),
             tight.map_or_else(String::new, |one| one.greatest_tension.cable.to_string()),
