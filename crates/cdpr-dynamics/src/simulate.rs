@@ -66,9 +66,11 @@ pub fn simulate_controlled(
         )
     };
     let (tolerance, coarse) = (settings.tolerance, 4.0 * settings.tolerance);
-    let chain = |elements| (Discretization::TAUT, Some(Discretization::chain(elements)));
-    let elements = settings.discretization.map_or(chain(CHAINS[1]), |elements| (elements, None));
-    let coarser = (elements.0.coarser(), elements.1.map(|_| Discretization::chain(CHAINS[0])));
+    let chain = |place: usize| Some(Discretization::chain(CHAINS[place]));
+    let (elements, coarser) = match settings.discretization {
+        None => ((Discretization::TAUT, chain(1)), (Discretization::TAUT.coarser(), chain(0))),
+        Some(elements) => [elements, elements.coarser()].map(|own| (own, own.of_slack())).into(),
+    };
     let both = |elements: (Discretization, Option<Discretization>), tolerance| {
         let begun = start(elements, tolerance)?;
         let series = begun.end(elements.1)?;

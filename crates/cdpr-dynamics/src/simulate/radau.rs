@@ -1,5 +1,9 @@
-//! Radau IIA of order 5 with step control (E. Hairer, G. Wanner, *Solving Ordinary Differential Equations
-//! II*, second edition, 1996, section IV.8), for motions whose Newton matrix has a structure of its own.
+//! Implicit methods with step control (E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*,
+//! second edition, 1996, section IV.8), for motions whose Newton matrix has a structure of its own.
+
+mod method;
+
+pub(super) use method::Method;
 
 use nalgebra::{Complex, ComplexField};
 
@@ -32,32 +36,6 @@ pub(super) trait Linearization {
     fn solve<T: ComplexField<RealField = f64> + Copy>(&self, by: &Self::Factors<T>, right: &[T]) -> Vec<T>;
 }
 
-const S6: f64 = 2.449_489_742_783_178;
-/// Times of the stages, as shares of the step.
-pub(super) const STAGES: [f64; 3] = [(4.0 - S6) / 10.0, (4.0 + S6) / 10.0, 1.0];
-/// Weights of the stages in an integral over the step.
-pub(super) const WEIGHTS: [f64; 3] = [(16.0 - S6) / 36.0, (16.0 + S6) / 36.0, 1.0 / 9.0];
-const E: [f64; 3] = [(-13.0 - 7.0 * S6) / 3.0, (-13.0 + 7.0 * S6) / 3.0, -1.0 / 3.0];
-/// Eigenvalues of the inverse of the matrix of the method, and the transformation that makes it diagonal.
-const REAL: f64 = 3.637_834_252_744_496;
-const COMPLEX: Complex<f64> = Complex { re: 2.681_082_873_627_752_3, im: -3.050_430_199_247_410_5 };
-const T: [[f64; 3]; 3] = [
-    [0.094_438_762_488_975_24, -0.141_255_295_020_954_2, 0.030_029_194_105_147_424],
-    [0.250_213_122_965_333_3, 0.204_129_352_293_799_93, -0.382_942_112_757_261_9],
-    [1.0, 1.0, 0.0],
-];
-const TI: [[f64; 3]; 3] = [
-    [4.178_718_591_551_904, 0.327_682_820_761_062_4, 0.523_376_445_499_449_5],
-    [-4.178_718_591_551_904, -0.327_682_820_761_062_4, 0.476_623_554_500_550_44],
-    [0.502_872_634_945_786_9, -2.571_926_949_855_605, 0.596_039_204_828_224_9],
-];
-/// Coefficients of the collocation polynomial: of x, x², x³ for each stage.
-const P: [[f64; 3]; 3] = [
-    [13.0 / 3.0 + 7.0 * S6 / 3.0, -23.0 / 3.0 - 22.0 * S6 / 3.0, 10.0 / 3.0 + 5.0 * S6],
-    [13.0 / 3.0 - 7.0 * S6 / 3.0, -23.0 / 3.0 + 22.0 * S6 / 3.0, 10.0 / 3.0 - 5.0 * S6],
-    [1.0 / 3.0, -8.0 / 3.0, 10.0 / 3.0],
-];
-
 const MOST_ITERATIONS: usize = 6;
 /// Linearizations within a step before it is halved.
 const MOST_LINEARIZATIONS: usize = 2;
@@ -82,8 +60,9 @@ pub(super) struct Radau<S: Equations> {
     is_current: bool,
     /// How fast the last Newton's method converged: the share of its last step that was left.
     left: f64,
-    /// What the last evaluations at the stages left; that of the third is at the state.
-    pub(super) memories: [S::Memory; 3],
+    /// What the last evaluations left, at the stages and at the state.
+    pub(super) memories: [S::Memory; 4],
+    pub(super) method: &'static Method,
     /// The last step [s], its stages and its error.
     last: Option<(f64, [Vec<f64>; 3], f64)>,
     room: Room,
@@ -134,12 +113,13 @@ pub(super) struct Step {
 pub(super) struct Stalled;
 
 impl<S: Equations> Radau<S> {
-    pub(super) fn new(equations: &S, time: f64, state: Vec<f64>, step: f64) -> Self {
-        let (mut memories, mut slopes): ([S::Memory; 3], _) = (Default::default(), vec![0.0; state.len()]);
-        equations.slopes(time, &state, &mut memories[2], &mut slopes);
+    pub(super) fn new(method: &'static Method, equations: &S, time: f64, state: Vec<f64>, step: f64) -> Self {
+        let (mut memories, mut slopes): ([S::Memory; 4], _) = (Default::default(), vec![0.0; state.len()]);
+        equations.slopes(time, &state, &mut memories[3], &mut slopes);
         let work = Work { evaluations: 1, ..Work::default() };
         let (newton, last, room) = (None, None, Room::default());
-        Self { time, state, step, slopes, newton, is_current: false, left: 1.0, memories, last, room, work }
+        let is_current = false;
+        Self { time, state, step, slopes, newton, is_current, left: 1.0, memories, method, last, room, work }
     }
 
     /// One step, not beyond `until` [s].
@@ -205,8 +185,11 @@ impl<S: Equations> Radau<S> {
         let at = |k: usize| self.state.iter().zip(&stages[k]).map(|(y, z)| y + z).collect();
         let step = Step { length: h, stages: [at(0), at(1), at(2)] };
         self.time += h;
-        self.state.clone_from(&step.stages[2]);
-        equations.slopes(self.time, &self.state, &mut self.memories[2], &mut self.slopes);
+        let end = self.method.end();
+        for (i, y) in self.state.iter_mut().enumerate() {
+            *y += end[0] * stages[0][i] + end[1] * stages[1][i] + end[2] * stages[2][i];
+        }
+        equations.slopes(self.time, &self.state, &mut self.memories[3], &mut self.slopes);
         self.last = Some((h, stages, error));
         self.work.steps += 1;
         self.work.evaluations += 1;
@@ -222,8 +205,8 @@ impl<S: Equations> Radau<S> {
         let serves = newton.factors.as_ref().is_some_and(|(at, ..)| (at / h - 1.0).abs() < 1e-6);
         if !serves {
             self.work.factorizations += 1;
-            let real = newton.at.factor(REAL / h)?;
-            newton.factors = Some((h, real, newton.at.factor(COMPLEX / h)?));
+            let real = newton.at.factor(self.method.real / h)?;
+            newton.factors = Some((h, real, newton.at.factor(self.method.complex / h)?));
         }
         Some(newton)
     }
@@ -237,10 +220,10 @@ impl<S: Equations> Radau<S> {
         h: f64,
         mut z: Stages,
     ) -> Result<(Stages, usize, f64), Option<Stages>> {
-        let (n, scale) = (self.state.len(), equations.scale());
+        let (n, scale, method) = (self.state.len(), equations.scale(), self.method);
         let Some((_, real, complex)) = &newton.factors else { return Err(None) };
         let mut w = Stages::default();
-        combine(&TI, &z, &mut w);
+        combine(&method.from_stages, &z, &mut w);
         let (mut before, mut rate) = (None, 0.0_f64);
         let Room { state, slopes, transformed, right, complex: both } = &mut self.room;
         for slopes in slopes.iter_mut() {
@@ -250,18 +233,18 @@ impl<S: Equations> Radau<S> {
             for k in 0..3 {
                 state.clear();
                 state.extend(self.state.iter().zip(&z[k]).map(|(y, z)| y + z));
-                let time = self.time + STAGES[k] * h;
+                let time = self.time + method.stages[k] * h;
                 equations.slopes(time, state, &mut self.memories[k], &mut slopes[k]);
             }
             self.work.evaluations += 3;
             if slopes.iter().flatten().any(|slope| !slope.is_finite()) {
                 return Err(None);
             }
-            combine(&TI, slopes, transformed);
+            combine(&method.from_stages, slopes, transformed);
             let [first, second, third] = &*transformed;
             right.clear();
-            right.extend(first.iter().zip(&w[0]).map(|(slope, w)| slope - REAL / h * w));
-            let by = COMPLEX / h;
+            right.extend(first.iter().zip(&w[0]).map(|(slope, w)| slope - method.real / h * w));
+            let by = method.complex / h;
             both.clear();
             both.extend(
                 (0..n).map(|i| Complex::new(second[i], third[i]) - by * Complex::new(w[1][i], w[2][i])),
@@ -277,7 +260,7 @@ impl<S: Equations> Radau<S> {
                 w[2][i] += others[i].im;
             }
             let norm = (square / (3 * n) as f64).sqrt();
-            combine(&T, &w, &mut z);
+            combine(&method.to_stages, &w, &mut z);
             if let Some(before) = before {
                 rate = norm / before;
                 let more = (MOST_ITERATIONS - iteration) as i32;
@@ -306,16 +289,19 @@ impl<S: Equations> Radau<S> {
     fn linearized_at(&mut self, equations: &S, h: f64, stage: &[f64]) -> Newton<S::Linearization> {
         self.is_current = true;
         let state: Vec<f64> = self.state.iter().zip(stage).map(|(y, z)| y + z).collect();
-        Newton { at: equations.linearize(self.time + STAGES[1] * h, &state), factors: None }
+        Newton { at: equations.linearize(self.time + self.method.stages[1] * h, &state), factors: None }
     }
 
     /// Where the polynomial of the last step leads.
     fn guess(&self, h: f64) -> Stages {
         let n = self.state.len();
         let Some((last, stages, _)) = &self.last else { return std::array::from_fn(|_| vec![0.0; n]) };
-        let share = |k: usize, x: f64| P[k][0] * x + P[k][1] * x * x + P[k][2] * x * x * x;
+        let share = |k: usize, x: f64| {
+            let [one, two, three] = self.method.polynomial[k];
+            x * (one + x * (two + x * three))
+        };
         std::array::from_fn(|to| {
-            let x = 1.0 + STAGES[to] * h / last;
+            let x = 1.0 + self.method.stages[to] * h / last;
             let shares: [f64; 3] = std::array::from_fn(|k| share(k, x) - share(k, 1.0));
             (0..n).map(|i| (0..3).map(|k| shares[k] * stages[k][i]).sum()).collect()
         })
@@ -332,13 +318,14 @@ impl<S: Equations> Radau<S> {
     ) -> f64 {
         let n = self.state.len();
         let Some((_, real, _)) = &newton.factors else { return f64::NAN };
-        let sum = |i: usize| (0..3).map(|k| E[k] * stages[k][i]).sum::<f64>() / h;
+        let begin = self.method.polynomial.map(|shares| shares[0] / h);
+        let sum = |i: usize| -(0..3).map(|k| begin[k] * stages[k][i]).sum::<f64>();
         let right: Vec<f64> = (0..n).map(|i| self.slopes[i] + sum(i)).collect();
         let mut error = newton.at.solve(real, &right);
         if again {
             let state: Vec<f64> = self.state.iter().zip(&error).map(|(y, e)| y + e).collect();
             let mut slopes = vec![0.0; n];
-            equations.slopes(self.time, &state, &mut self.memories[2], &mut slopes);
+            equations.slopes(self.time, &state, &mut self.memories[3], &mut slopes);
             self.work.evaluations += 1;
             let right: Vec<f64> = (0..n).map(|i| slopes[i] + sum(i)).collect();
             error = newton.at.solve(real, &right);

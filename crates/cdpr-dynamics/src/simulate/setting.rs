@@ -28,6 +28,11 @@ impl Discretization {
         Self { elements, degree: 1 }
     }
 
+    /// The chain with as many points, for cables that go slack; none for one that is a chain.
+    pub(super) fn of_slack(self) -> Option<Self> {
+        (self.degree > 1).then(|| Self::chain(self.elements * self.degree))
+    }
+
     /// Whether a mesh is this one.
     pub(super) fn is_of(self, mesh: &Mesh) -> bool {
         (self.elements, self.degree) == (mesh.elements(), mesh.rule.degree)
@@ -54,9 +59,10 @@ pub struct Settings {
     /// Ratio τ of the viscous to the elastic modulus of the cables [s].
     pub damping: f64,
     /// Elements of each cable. Without, a cable has [`Discretization::TAUT`], or more of them where its
-    /// tension at rest needs more, or where fewer move the platform otherwise by more than 0.1 mm. From the step on in which one goes slack, all are chains of straight
-    /// elements: 20; 40 or 80 where half as many move the platform otherwise by more than 0.2 % of its motion
-    /// and more than 0.3 mm.
+    /// tension at rest needs more, or where fewer move the platform otherwise by more than 0.1 mm. From the
+    /// step on in which one goes slack, all are chains of straight elements: 20; 40 or 80 where half as many
+    /// move the platform otherwise by more than 0.2 % of its motion and more than 0.3 mm. Chosen elements
+    /// become a chain with as many points then.
     pub discretization: Option<Discretization>,
     /// Error of a step that is accepted, as a position [m]; 20 times as much with chains, whose own error is
     /// far greater. Once a cable is slack, steps follow from the fastest motion of the platform.
@@ -211,8 +217,17 @@ impl System<'_> {
         const SLACK: f64 = 20.0;
         /// By how much more the chains themselves may err: what their waves do to the platform averages out.
         const CHAIN: f64 = 10.0;
+        /// By how much more undamped motions may err: those by Gauss' method err far less than its estimate.
+        const GAUSS: f64 = 2.0;
         let has_chain = self.cables.iter().any(CableInMotion::is_chain);
-        let [position, rotation] = self.tolerances.map(|error| if has_chain { SLACK * error } else { error });
+        let more = if has_chain {
+            SLACK
+        } else if self.is_damped() {
+            1.0
+        } else {
+            GAUSS
+        };
+        let [position, rotation] = self.tolerances.map(|error| more * error);
         let mut scale = [[position; 3], [rotation; 3]].concat();
         for cable in &self.cables {
             let own = if cable.is_chain() { CHAIN * position } else { position };

@@ -1,7 +1,7 @@
 //! The solution of the equations of motion by the method that serves.
 
 use super::midpoint::{Midpoint, Spent};
-use super::radau::{Radau, STAGES, Stalled, WEIGHTS, Work};
+use super::radau::{Method, Radau, Stalled, Work};
 use super::system::{Snapshot, System};
 
 /// First step after a change [s].
@@ -19,8 +19,9 @@ impl<'a> Solver<'a> {
     /// The solution from a state on; `is_slack` says whether a cable is or was slack.
     pub(super) fn new(system: &System<'a>, time: f64, state: Vec<f64>, is_slack: bool) -> Self {
         let midpoint = if is_slack { Midpoint::new(system, time, &state) } else { None };
+        let method = if system.is_damped() { &Method::RADAU } else { &Method::GAUSS };
         midpoint.map_or_else(
-            || Self::Implicit(Box::new(Radau::new(system, time, state, FIRST_STEP))),
+            || Self::Implicit(Box::new(Radau::new(method, system, time, state, FIRST_STEP))),
             |midpoint| Self::Midpoint(Box::new(midpoint)),
         )
     }
@@ -62,7 +63,7 @@ impl<'a> Solver<'a> {
     /// The system now, or within the last step.
     pub(super) fn last_snapshot(&self) -> &Snapshot {
         match self {
-            Self::Implicit(radau) => &radau.memories[2],
+            Self::Implicit(radau) => &radau.memories[3],
             Self::Midpoint(midpoint) => &midpoint.at,
         }
     }
@@ -75,15 +76,15 @@ impl<'a> Solver<'a> {
         };
         let step = radau.advance(system, until)?;
         let mut spent = Spent::default();
-        // Snapshots of the first two stages are those before the last change of Newton's method.
-        let times = STAGES.map(|share| radau.time + (share - 1.0) * step.length);
-        let looks = system.has_power(times[0]) || system.has_power(times[1]);
-        for ((state, at), time) in step.stages.iter().zip(&mut radau.memories).zip(times).take(2) {
+        // Snapshots of the stages are those before the last change of Newton's method.
+        let times = radau.method.stages.map(|share| radau.time + (share - 1.0) * step.length);
+        let looks = times.iter().any(|time| system.has_power(*time));
+        for ((state, at), time) in step.stages.iter().zip(&mut radau.memories).zip(times) {
             if looks {
                 system.look(time, state, at);
             }
         }
-        for ((weight, state), at) in WEIGHTS.iter().zip(&step.stages).zip(&radau.memories) {
+        for ((weight, state), at) in radau.method.weights.iter().zip(&step.stages).zip(&radau.memories) {
             let [given, lost] = system.powers(at, state);
             spent.given += weight * step.length * given;
             spent.lost += weight * step.length * lost;

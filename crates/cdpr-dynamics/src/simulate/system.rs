@@ -195,9 +195,14 @@ impl System<'_> {
         energy
     }
 
+    /// Whether cables are damped.
+    pub(super) fn is_damped(&self) -> bool {
+        self.cables.iter().any(|cable| cable.material.damping > 0.0)
+    }
+
     /// Whether winches move at a time [s], or cables are damped.
     pub(super) fn has_power(&self, time: f64) -> bool {
-        self.cables.iter().any(|cable| cable.material.damping > 0.0 || cable.length_at(time).1 != 0.0)
+        self.is_damped() || self.cables.iter().any(|cable| cable.length_at(time).1 != 0.0)
     }
 
     /// Power of winches and forces, and power lost in the cables [W].
