@@ -261,7 +261,7 @@ impl Findings<'_> {
                 Severity::Note,
                 "cables[*].anchor_point",
                 format!("{:?} m", anchors[0].as_slice()),
-                "one place for all cables, which hold no rotation of the platform there",
+                "one place for all cables, which resist no rotation of the platform there",
                 "\"point\": true in `platform` for a point mass, such as a camera",
             );
         }

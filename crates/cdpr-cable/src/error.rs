@@ -40,8 +40,8 @@ pub enum CableError {
     },
     /// The cable is strained beyond [`crate::MAX_STRAIN`].
     #[error(
-        "a tension of {} N strains the cable by {:.1} %, beyond the {:.0} % up to which the models hold: it \
-         is too short or too soft for this",
+        "a tension of {} N strains the cable by {:.1} %, beyond the {:.0} % up to which the models are valid: \
+         it is too short or too soft for this",
         short(*tension), 100.0 * strain, 100.0 * MAX_STRAIN
     )]
     Overstrained {

@@ -182,8 +182,8 @@ pub enum StudyError {
     },
     /// A folder with the blocks of another study.
     #[error(
-        "{folder} holds study {found}, and this is study {expected} (version {version}): expected the same \
-         robot, error models, poses, payload, seed and version; use another folder"
+        "{folder} contains study {found}, and this is study {expected} (version {version}): expected the \
+         same robot, error models, poses, payload, seed and version; use another folder"
     )]
     ForeignFolder {
         /// The folder.
@@ -196,7 +196,7 @@ pub enum StudyError {
         version: &'static str,
     },
     /// A folder with blocks, without instructions to resume or to overwrite them.
-    #[error("{folder} holds {blocks} block{s} of this study", s = plural(*blocks))]
+    #[error("{folder} contains {blocks} block{s} of this study", s = plural(*blocks))]
     FolderInUse {
         /// The folder.
         folder: PathBuf,
@@ -234,7 +234,7 @@ pub enum StudyError {
         folder: PathBuf,
     },
     /// A folder of results of another kind.
-    #[error("{folder} holds the results of {found}: expected those of {expected}, or another folder")]
+    #[error("{folder} contains the results of {found}: expected those of {expected}, or another folder")]
     OtherResults {
         /// The folder.
         folder: PathBuf,

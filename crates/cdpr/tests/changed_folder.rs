@@ -23,11 +23,11 @@ fn a_study_with_a_further_sampling_keeps_the_blocks_of_the_others() {
     bench.change("study.json", |study| {
         study["samplings"]["mechanical"]["pose"]["position"] = json!([0.0, 0.1, 1.75]);
     });
-    assert!(bench.refused(&["run", "study.json", "--out", "out", "--resume"]).contains("out holds study"));
+    assert!(bench.refused(&["run", "study.json", "--out", "out", "--resume"]).contains("out contains study"));
     bench.change("study.json", |study| {
         study["samplings"].as_object_mut().unwrap().remove("mechanical");
     });
-    assert!(bench.refused(&["run", "study.json", "--out", "out", "--resume"]).contains("out holds study"));
+    assert!(bench.refused(&["run", "study.json", "--out", "out", "--resume"]).contains("out contains study"));
 }
 
 #[test]

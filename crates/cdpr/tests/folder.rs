@@ -376,6 +376,9 @@ fn results_of_another_kind_are_not_written_into_a_folder() {
     let workspace =
         cdpr_in(&bench.path("."), &["workspace", &robot, "--region=0:0:1,0:0:1,1.75:1.75:1", "--out", "out"]);
     let message = unwrapped(workspace.stderr);
-    assert!(message.contains("out holds the results of a study: expected those of a workspace"), "{message}");
+    assert!(
+        message.contains("out contains the results of a study: expected those of a workspace"),
+        "{message}"
+    );
     assert_eq!(bench.files("out"), before);
 }

@@ -70,7 +70,7 @@ fn the_table_begins_with_the_whole_robot_and_names_the_forces_that_its_factors_a
     let folder = TempDir::new().unwrap();
     let robot = point_mass(&folder, &FOUR, false);
     let printed = text(cdpr(&["safety", &robot, "--pose", "0,0,1"]).stdout).replace('\n', " ");
-    assert!(printed.contains("no breaking force is known, so that there are no factors"), "{printed}");
+    assert!(printed.contains("no breaking force is known, so that there are no safety factors"), "{printed}");
     let strong =
         std::fs::read_to_string(&robot).unwrap().replace("\"section\"", "\"breaking_force\":600,\"section\"");
     std::fs::write(&robot, strong).unwrap();

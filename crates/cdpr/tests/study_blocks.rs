@@ -220,7 +220,7 @@ fn blocks_of_another_study_are_refused_with_both_hashes() {
     for options in [&[][..], &["--resume"], &["--shard", "1/2"]] {
         let message = bench.refused(&[&run[..], options].concat());
         assert!(
-            message.starts_with("error: out holds study ") && message.contains("--overwrite"),
+            message.starts_with("error: out contains study ") && message.contains("--overwrite"),
             "{message}"
         );
         let hashes: Vec<_> = message
@@ -267,7 +267,7 @@ fn a_folder_in_use_is_refused_and_nothing_of_it_touched() {
     let message = bench.refused(&["run", "study.json", "--out", "out"]);
     assert_eq!(
         message,
-        "error: out holds 6 blocks of this study: --resume goes on with them, --overwrite begins again\n"
+        "error: out contains 6 blocks of this study: --resume goes on with them, --overwrite begins again\n"
     );
     assert_eq!(bench.results("out"), before);
     // A study file that no run has written, the very one to run among them.

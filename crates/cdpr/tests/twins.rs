@@ -122,5 +122,5 @@ fn a_motion_that_strains_cables_beyond_the_models_is_questioned() {
     let found = cdpr_in(folder.path(), &call);
     assert_eq!(found.status.code(), Some(3));
     let said = unwrapped(found.stderr);
-    assert!(said.contains("is strained by") && said.contains("the models hold up to 10 %"), "{said}");
+    assert!(said.contains("is strained by") && said.contains("the models are valid up to 10 %"), "{said}");
 }

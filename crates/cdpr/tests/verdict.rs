@@ -47,7 +47,7 @@ fn the_template_study_says_what_is_certain_and_fewer_observations_leave_its_boun
     let (printed, summary) = run("all", &[]);
     assert_narrow(&printed);
     let lines: Vec<&str> = printed.lines().collect();
-    assert!(lines[0].starts_with("all: Mean deflection 1.206 mm, deviation 0.066"), "{printed}");
+    assert!(lines[0].starts_with("all: Mean deflection 1.206 mm, std 0.066"), "{printed}");
     assert_eq!(lines[1], "Certain to matter (above 1 % of the variance): youngs_modulus.");
     assert!(lines[2].starts_with("Certainly below 1 % each: mass, linear_density, "), "{printed}");
     assert!(printed.contains("bounded by exact derivatives at 256 points; 95 %"), "{printed}");
@@ -169,7 +169,7 @@ fn tolerances_begin_with_what_to_tighten_and_what_independent_robots_say_of_it()
     assert!(printed.starts_with("For 95 % below 0.9 mm, tighten the width of b to 8"), "{printed}");
     // 4096 robots have found the factors, and 20 000 others miss the limit by a little.
     for line in [
-        "\nThen 94.5 % (94.2 to 94.8) of the robots keep it, now 91.",
+        "\nThen 94.5 % (94.2 to 94.8) of the robots are below it, now 91.",
         "\nThat is less than 95 %: a limit of 0.898",
     ] {
         assert!(printed.contains(line), "{printed}");

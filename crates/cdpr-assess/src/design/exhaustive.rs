@@ -36,7 +36,7 @@ pub(crate) struct Exhausted {
 /// What is known of a configuration.
 enum Outcome {
     Found(Found),
-    /// It is not held, or does not keep the limits, at this part of the poses.
+    /// It is not held, or does not meet the limits, at this part of the poses.
     Not(usize),
     /// It is worse at this part of the poses.
     Worse(usize),

@@ -92,7 +92,7 @@ fn passed(problem: &DesignProblem, values: &[f64], at: &Evaluation) -> String {
     let excesses = at.excesses.iter().map(|excess| excess.value).enumerate();
     let greatest = excesses.max_by(|a, b| a.1.total_cmp(&b.1));
     let Some((index, excess)) = greatest.filter(|(_, excess)| *excess > MET) else {
-        return "the robot there keeps the limits, but the search from it ended early".to_owned();
+        return "the robot there meets the limits, but the search from it ended early".to_owned();
     };
     let words = |what: String, value: f64, limit: f64, unit: &str| {
         let [value, limit] = [value, limit].map(|value| significant(value, 4));

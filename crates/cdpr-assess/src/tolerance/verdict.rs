@@ -25,13 +25,13 @@ impl ToleranceBudget {
         let mut sentences = if tightened.is_empty() && calibrated.is_empty() {
             vec![
                 format!("The tolerances suffice: nothing has to be tightened for {wanted} % of the robots."),
-                format!("{} of {} robots keep the {of} of {limit} mm.", reached(&self.now), self.now.robots),
+                format!("{} of {} robots have a {of} below {limit} mm.", reached(&self.now), self.now.robots),
             ]
         } else {
             vec![
                 self.advice(wanted, &tightened, &calibrated),
                 format!(
-                    "Then {} of the robots keep it, now {}.",
+                    "Then {} of the robots are below it, now {}.",
                     reached(&self.tightened),
                     reached(&self.now)
                 ),

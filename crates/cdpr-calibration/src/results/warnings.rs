@@ -93,7 +93,7 @@ impl Fit {
         let held = if is_point { "a point mass does not rotate" } else { "the robot cannot leave its plane" };
         Some(format!(
             "{column} is {} {unit} off in line {line}, {standard_deviations:.0} standard deviations, though \
-             {held}: what holds it, or the frame of the measurements, may be another; it does not count",
+             {held}: what guides it, or the frame of the measurements, may be another; it does not count",
             significant(off, 2)
         ))
     }

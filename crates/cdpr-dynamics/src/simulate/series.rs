@@ -90,7 +90,7 @@ impl Series {
         let (i, strain) =
             strains.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, strain)| *strain > MAX_STRAIN)?;
         let value = format!("strained by {} % at {} s", short(100.0 * strain), short(self.peaks[i].1));
-        let why = format!("the models hold up to {} %", short(100.0 * MAX_STRAIN));
+        let why = format!("the models are valid up to {} %", short(100.0 * MAX_STRAIN));
         Some(Doubt::new(
             format!("cable {}", i + 1),
             value,

@@ -134,7 +134,7 @@ fn of_vector(vector: &VectorAnalysis) -> Markup {
     let rows: Vec<_> = vector.bures.iter().map(row).collect();
     let head = ["input", "Wasserstein-Bures", "from", "to", "of which by the means"];
     table(
-        "How much each input moves the law of the vector (0: not at all, 1: it alone decides it)",
+        "How much each input moves the law of the vector (0: not at all, 1: it alone determines it)",
         &head,
         &rows,
     )

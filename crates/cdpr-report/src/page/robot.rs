@@ -52,7 +52,7 @@ pub(crate) fn section(
 
 fn view(robot: &Robot, scene: &Scene, region: Option<&FoundRegion>, load: &str) -> Markup {
     let alt = format!(
-        "{} in three dimensions with its {} sagging cables; the tables below hold its numbers",
+        "{} in three dimensions with its {} sagging cables; the tables below have its numbers",
         robot.name,
         robot.cables.len()
     );

@@ -54,7 +54,7 @@ fn settings(results: &Results) -> Markup {
             }
             @if let Some(weather) = &file.weather {
                 dt { "Weather" }
-                dd { "after the load, on winches that hold: " (weather_words(weather)) }
+                dd { "after the load, on winches that stand still: " (weather_words(weather)) }
             }
             dt { "Design" }
             dd { "all uncertain parameters at once, at points of Sobol's sequence" }

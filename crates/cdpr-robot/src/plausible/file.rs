@@ -181,7 +181,7 @@ fn weight(robot: &Robot) -> Option<Doubt> {
     let [own, borne] = [weight, most].map(|force| visible(force, 1));
     let too_little = || {
         format!(
-            "all cables at it, drawn straight up, hold {borne} N, less than the platform's weight, {own} N"
+            "all cables at it, drawn straight up, carry {borne} N, less than the platform's weight, {own} N"
         )
     };
     if 1e3 * most > weight
@@ -193,7 +193,7 @@ fn weight(robot: &Robot) -> Option<Doubt> {
     Some(Doubt::new(
         "platform.mass",
         format!("{} kg, {own} N", four_digits(mass)),
-        format!("all cables at tension_limits.max, drawn straight up, hold {borne} N"),
+        format!("all cables at tension_limits.max, drawn straight up, carry {borne} N"),
         meant.unwrap_or_else(|| "a smaller mass or a greater limit".to_owned()),
     ))
 }

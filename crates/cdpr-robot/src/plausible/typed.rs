@@ -228,7 +228,10 @@ pub fn load(robot: &Robot, payload: f64, wrench_of_load: &Wrench) -> Doubts {
         Doubt::new(
             "payload",
             format!("{} kg, {} N", four_digits(payload), four_digits(payload * gravity)),
-            format!("all cables at their greatest tensions, drawn straight up, hold {} N", four_digits(most)),
+            format!(
+                "all cables at their greatest tensions, drawn straight up, carry {} N",
+                four_digits(most)
+            ),
             meant.unwrap_or_else(|| "a mass in kg".to_owned()),
         )
     });

@@ -49,7 +49,8 @@ impl Rest<'_> {
         let (before, after) = (unmoved.equilibrium.tensions(), with_offsets.equilibrium.tensions());
         let moved = before.iter().zip(tension_offsets).zip(&after);
         if moved.into_iter().any(|((t, offset), found)| (t + offset - found).abs() > SAME * (t + found)) {
-            let reason = "a limit of tension or the weight of a cable keeps it";
+            let reason =
+                "it stays at a limit of tension, or at the least one that the weight of its cable demands";
             return Err(StaticsError::NoDerivative { quantity: "a set-point with its offset", reason });
         }
         let (motion, mut set_points) = self.motion()?;

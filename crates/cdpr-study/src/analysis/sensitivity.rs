@@ -153,20 +153,20 @@ fn doubt(method: &str, found: &Found) -> String {
     };
     let (what, all, every) = match method {
         "morris" => (
-            "few effects decide the means of",
+            "few effects dominate the means of",
             of_inputs(|input| input.morris_reliable == Some(true)),
             "too few blocks",
         ),
         "morris_of_groups" => (
-            "few effects decide the means of",
+            "few effects dominate the means of",
             found.groups.iter().map(|group| (&group.group, group.morris_reliable == Some(true))).collect(),
             "too few blocks",
         ),
         // Inputs without a bound have nothing to doubt.
         "dgsm" => (
-            "few points decide the mean squares of",
+            "few points dominate the mean squares of",
             of_inputs(|input| input.dgsm_total_bound_high.is_some() || input.dgsm_total_bound.is_none()),
-            "few points decide the mean squares",
+            "few points dominate the mean squares",
         ),
         _ => return "too few blocks".to_owned(),
     };

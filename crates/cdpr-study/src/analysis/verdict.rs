@@ -35,7 +35,7 @@ impl PartVerdict {
             Some(ValueSummary { mean, std, min, max, .. }) => {
                 let [mean, min, max] = [mean, min, max].map(|value| number(*value));
                 let std = significant(*std, 3);
-                format!("Mean {noun} {mean} {unit}, deviation {std} {unit}, range {min} to {max} {unit}.")
+                format!("Mean {noun} {mean} {unit}, std {std} {unit}, range {min} to {max} {unit}.")
             }
             None => format!("No {noun}: fewer than two observations succeeded."),
         };
@@ -151,8 +151,9 @@ impl Recommendation {
             sentences.extend(self.missed_by_ranks());
         }
         let little = little_explained(self.explained);
-        sentences
-            .extend(little.map(|little| format!("{little}: the bounds hold, nominal derivatives mislead.")));
+        sentences.extend(
+            little.map(|little| format!("{little}: the bounds are valid, nominal derivatives mislead.")),
+        );
         sentences.extend(self.remedy.clone());
         sentences
     }

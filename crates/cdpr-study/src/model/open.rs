@@ -310,8 +310,8 @@ impl Study {
         }
         let names: Vec<_> = free.iter().map(ToString::to_string).collect();
         let expected = format!(
-            "{missing} different ones of x, y, z, roll, pitch, yaw that are not held, for {cables} cables and \
-             {} free motions",
+            "{missing} different ones of x, y, z, roll, pitch, yaw that `plane` and `point` leave free, for \
+             {cables} cables and {} free motions",
             freedoms.count()
         );
         Err(self.invalid(&format!("{field}.free"), format!("[{}]", names.join(", ")), &expected))

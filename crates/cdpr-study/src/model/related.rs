@@ -85,7 +85,7 @@ impl Study {
         checked.map_err(|source| match source {
             SensitivityError::NotACorrelation { row, column, .. } if row == column => {
                 let found = format!("contradictory for `{}`", inputs[row].name);
-                let expected = "correlations that can hold together (a positive definite matrix)";
+                let expected = "correlations that are possible together (a positive definite matrix)";
                 self.invalid(&field, found, expected)
             }
             source => self.statistics(field, source),

@@ -327,10 +327,11 @@ impl Answer {
         }
         println!("{rows}");
         println!("shares of the kinetic energy, of the cables the two largest by number");
+        println!("within: bound of the relative error of the frequency");
         if let Some(Winches { mass_kg, stiffness_n_per_m }) = &self.winches {
             print_sentence(&format!(
-                "winches: rotors of {mass_kg} kg at the drum, held with {stiffness_n_per_m} N/m; the share of \
-                 a cable contains that of its rotor"
+                "winches: rotors of {mass_kg} kg at the drum, with a stiffness of \
+                 {stiffness_n_per_m} N/m; the share of a cable contains that of its rotor"
             ));
         }
         OutOfLimits::print(&self.out_of_limits);

@@ -231,11 +231,11 @@ impl Answer {
         let allowed = all(&self.greatest_allowed);
         let known: Vec<f64> = self.breaking_forces.iter().copied().flatten().collect();
         let strength = match known.len() {
-            0 => "no breaking force is known, so that there are no factors".to_owned(),
+            0 => "no breaking force is known, so that there are no safety factors".to_owned(),
             some if some < self.breaking_forces.len() => {
                 format!(
-                    "the breaking force, known of {some} cables, is {}; there is no factor with another \
-                     cable, which may be the first to break",
+                    "the breaking force, known of {some} cables, is {}; there is no safety factor with \
+                     another cable, which may be the first to break",
                     all(&known)
                 )
             }
@@ -252,10 +252,17 @@ impl Answer {
             print_sentence(&sentence);
         }
         let mut rows = table(match followed {
-            true => {
-                &["broken", "moves [m]", "at rest [N]", "swings [m]", "peak [N]", "in cable", "factor", ""]
-            }
-            false => &["broken", "moves [m]", "turns [deg]", "greatest [N]", "in cable", "factor", ""],
+            true => &[
+                "broken",
+                "moves [m]",
+                "at rest [N]",
+                "swings [m]",
+                "peak [N]",
+                "in cable",
+                "safety factor",
+                "",
+            ],
+            false => &["broken", "moves [m]", "turns [deg]", "greatest [N]", "in cable", "safety factor", ""],
         });
         let Greatest { cable, tension } = self.greatest_tension;
         let (still, tension) = ("0".to_owned(), significant(tension, 4));
@@ -282,8 +289,8 @@ impl Answer {
         print_sentence(if followed {
             "The winches stand still. Swings and peaks are those of the time followed, without damping. `±` \
              is how much two computations of the tensions differ, `~` marks a peak of which that is more \
-             than 10 %. `>` marks a platform that still moved away at the end, and a factor of which no more is \
-             known."
+             than 10 %. `>` marks a platform that still moved away at the end, and a safety factor that is \
+             greater than this."
         } else {
             "These are rests while the winches stand still. On the way there the platform swings and tensions \
              are greater: --with swing=SECONDS follows it."

@@ -326,7 +326,7 @@ fn ends(found: &Design, best: &BestDesign, seconds: f64) -> String {
     });
     let before = match (found.before, found.feasible_before) {
         (_, true) => "",
-        (Some(_), false) => " The robot as it is does not keep the limits.",
+        (Some(_), false) => " The robot as it is does not meet the limits.",
         (None, false) if found.output == Goal::Cost => {
             " The robot as it is does not hold all poses within the limits."
         }
@@ -361,5 +361,5 @@ fn demands(found: &Design, best: &BestDesign) -> Option<String> {
     }
     let more = active.len().saturating_sub(MOST);
     let more = if more == 0 { String::new() } else { format!(", and {more} more") };
-    (!named.is_empty()).then(|| format!("What keeps it from being better: {}{more}.", named.join(", ")))
+    (!named.is_empty()).then(|| format!("What prevents a better one: {}{more}.", named.join(", ")))
 }

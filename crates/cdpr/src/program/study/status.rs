@@ -42,7 +42,7 @@ fn print(status: &Status) {
         let SoFar { output, moments } = sampling.provisional;
         if let (Some(Provisional { mean, std }), unit) = (moments, output.unit()) {
             let [mean, std] = [significant(mean, 4), significant(std, 3)];
-            println!("{name}: so far mean {} {mean} {unit}, deviation {std} {unit}", output.noun());
+            println!("{name}: so far mean {} {mean} {unit}, std {std} {unit}", output.noun());
         }
     }
     println!("\n{} (hash {})", shown(&status.study), status.hash);

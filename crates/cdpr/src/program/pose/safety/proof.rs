@@ -248,7 +248,8 @@ impl Proof {
 
     pub(super) fn print(&self, heading: &str, is_followed: bool) {
         print_sentence(&self.sentence(heading));
-        let mut rows = table(&["broken", "tension [N]", "cable", "bears [N]", "utilized", "moves [m]", ""]);
+        let mut rows =
+            table(&["broken", "tension [N]", "cable", "resistance [N]", "utilized", "moves [m]", ""]);
         let has_reasons = self.common_reason().is_none();
         for case in &self.cases {
             rows.add_row(case.row(has_reasons));
@@ -263,9 +264,9 @@ impl Proof {
         }
         print_sentence(
             "Weights are those of platform and cables. The winches keep the lengths that hold the pose \
-             without factors.",
+             without partial factors.",
         );
-        println!("\nWithout factors:");
+        println!("\nWithout partial factors:");
     }
 
     /// What is open, in one cell.

@@ -34,10 +34,7 @@ fn print_answer(name: &str, analysis: &Analysis) {
     let of = &analysis.summary;
     let [mean, std, min, max] = [of.mean, of.std, of.min, of.max].map(number);
     let values = counted(of.count, "value");
-    print_sentence(&format!(
-        "mean {mean}, deviation {std}, range {min} to {max}; {values}, {} failed",
-        of.failed
-    ));
+    print_sentence(&format!("mean {mean}, std {std}, range {min} to {max}; {values}, {} failed", of.failed));
     for condition in &verdict.conditions {
         print_sentence(&format!(
             "{}: {}",
@@ -140,7 +137,7 @@ fn print_summary(name: &str, analysis: &Analysis) {
     let of = &analysis.summary;
     let [low, median, high] = analysis.quantiles.map(number);
     println!(
-        "{name}: {}, {} failed; mean {}, deviation {}; 5 % {low}, median {median}, 95 % {high}; {} to {}",
+        "{name}: {}, {} failed; mean {}, std {}; 5 % {low}, median {median}, 95 % {high}; {} to {}",
         counted(of.count, "value"),
         of.failed,
         number(of.mean),
