@@ -76,7 +76,7 @@ def test_a_front_has_no_point_that_another_dominates():
     assert (numpy.diff(front.objectives, axis=0) > 0).all()
     assert front.exchange.shape == front.optimal.shape == (points,)
     frame = front.to_dataframe()
-    assert list(frame.columns) == ["mean_position", "worst_stiffness", "exchange", "optimal", "half"]
+    assert list(frame.columns) == ["mean_position_error_mm", "worst_least_stiffness_n_per_m", "exchange", "optimal", "half"]
     for robot, values in zip(front.robots, front.values):
         assert robot.exit_points[0, 0] == values[0]
     pytest.importorskip("matplotlib", reason="matplotlib is not installed").use("svg")

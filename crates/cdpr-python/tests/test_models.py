@@ -7,7 +7,7 @@ import pickle
 
 import numpy
 import pytest
-from conftest import answer, refusal
+from conftest import answer, command, refusal
 
 import cdpr
 from cdpr.sensitivity import MorrisDesign, SaltelliDesign, SobolDesign, normal, uniform
@@ -215,10 +215,9 @@ def test_a_workspace_is_that_of_the_command_line(caroca, caroca_file, tmp_path):
     assert found.dominant == column("dominant")
     assert found.recomputed_status == column("recomputed_status")
     assert found.recomputed_reasons == column("recomputed_reason")
-    for name, unit in [("least_tension", "_n"), ("greatest_tension", "_n"), ("least_stiffness", "_n_per_m"),
-                       ("dominant_share", ""), ("recomputed_least_tension", "_n"),
-                       ("recomputed_greatest_tension", "_n")]:
-        same(getattr(found, name), [numpy.nan if value is None else value for value in column(name + unit)])
+    for name in ("least_tension_n", "greatest_tension_n", "least_stiffness_n_per_m", "dominant_share",
+                 "recomputed_least_tension_n", "recomputed_greatest_tension_n", "magnitude_mm", "dx_mm"):
+        same(found.to_dataframe()[name], [numpy.nan if value is None else value for value in column(name)])
     bare = caroca.workspace(x=(-3, 3, 7), y=0, z=1.75, payload=0)
     assert numpy.isnan(bare.magnitude).all() and not numpy.isnan(bare.least_stiffness).any()
     assert numpy.isnan(bare.lowest_frequency).all()
@@ -463,13 +462,47 @@ def test_answers_are_frames_of_pandas_with_a_row_for_each_case(caroca):
     far = [POSE, [9.0, 0.0, 1.75]]
     found = caroca.derivatives(far, payload=50)
     frame = found.to_dataframe()
-    numpy.testing.assert_array_equal(frame["magnitude/a1.x"], found.magnitude[:, found.inputs.index("a1.x")])
-    numpy.testing.assert_array_equal(frame["lengths_8/mass"], found.lengths[:, 7, found.inputs.index("mass")])
-    assert list(frame["kinds"]) == found.kinds and numpy.isnan(frame["magnitude/a1.x"][1])
-    assert caroca.inverse(POSE).to_dataframe()["tensions_3"][0] == caroca.inverse(POSE).tensions[2]
+    slopes = found.magnitude[:, found.inputs.index("a1.x")]
+    numpy.testing.assert_array_equal(frame["magnitude_mm/a1.x"], 1e3 * slopes)
+    numpy.testing.assert_array_equal(frame["length_8_m/mass"], found.lengths[:, 7, found.inputs.index("mass")])
+    assert list(frame["kind"]) == found.kinds and numpy.isnan(frame["magnitude_mm/a1.x"][1])
+    assert caroca.inverse(POSE).to_dataframe()["tension_3_n"][0] == caroca.inverse(POSE).tensions[2]
     plane = caroca.workspace(plane=("z", 1.75), grid=(3, 3), payload=50)
     frame = plane.to_dataframe()
-    assert list(frame["status"]) == plane.status and list(frame["positions_2"]) == list(plane.positions[:, 1])
+    assert list(frame["status"]) == plane.status and list(frame["y_m"]) == list(plane.positions[:, 1])
+
+
+@pytest.mark.parametrize("name", ["caroca", "ipanema-3", "cogiro"])
+def test_columns_of_frames_are_those_of_the_program_with_the_same_numbers(name, tmp_path):
+    pandas = pytest.importorskip("pandas", reason="pandas is not installed")
+    robot = cdpr.Robot.from_file(name)
+    poses = [[0.0, 0.0, 1.3], [0.1, 0.05, 1.3]] if name == "ipanema-3" else [[0, 0, 1.75], [0.1, 0.2, 1.8]]
+    file, table = tmp_path / "poses.csv", tmp_path / "table.csv"
+    file.write_text("\n".join(",".join(map(str, pose)) for pose in poses))
+    path = robot.path(poses, payload=5, uncertainty={"a": 0.002})
+    load = ["--payload", "5"]
+    answers = {
+        "inverse": (robot.inverse(poses), [], {"active", "iterations"}),
+        "deflection": (robot.deflection(poses, payload=5), load, set()),
+        "stiffness": (robot.stiffness(poses), [], {"symmetric_part", "translation", "rotation"}),
+        "capacity": (robot.capacity(poses), [], {"blocked_by"}),
+        "derivatives": (robot.derivatives(poses, payload=5), load, {"set_point", "tension", "amplitude", "right", "one_sided"}),
+        "path": (path, [*load, "--uncertainty", "a=0.002"], set()),
+    }
+    own = {"reason", "kind", "residual", "cable_force", "out_of_limits", "x_m", "stable", "jump", "others"}
+    for command_name, (found, more, python_alone) in answers.items():
+        done = command(command_name, name, "--poses", file, *more, "--out", table, "--overwrite")
+        assert done.returncode == 0, done.stderr
+        theirs, ours = pandas.read_csv(table), found.to_dataframe()
+        if command_name == "path":
+            ours = pandas.concat([ours, found.std.to_dataframe().drop(columns="reason")], axis=1)
+        of_pose = [f"/{one}" for one in ("payload", *"xyz", "rx", "ry", "rz")]
+        compared = [
+            column for column in ours
+            if not column.startswith((*own, *python_alone)) and not column.endswith(tuple(of_pose))
+        ]
+        assert len(compared) > 4 and set(compared) <= set(theirs.columns), command_name
+        numpy.testing.assert_allclose(ours[compared].astype(float), theirs[compared].astype(float), rtol=1e-12)
 
 
 def test_answers_come_back_from_a_process_pool(caroca):

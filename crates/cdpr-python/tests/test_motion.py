@@ -177,8 +177,8 @@ def test_motions_and_responses_are_pickled_drawn_and_made_frames(cogiro):
     pytest.importorskip("pandas", reason="pandas is not installed")
     # Eight samples of a robot with eight cables: rows are samples.
     frame = motion.to_dataframe()
-    assert len(frame) == 8 and list(frame["times"]) == list(motion.times)
-    assert list(frame["tensions_8"]) == list(motion.tensions[:, 7])
+    assert len(frame) == 8 and list(frame["t_s"]) == list(motion.times)
+    assert list(frame["t_anchor_8_n"]) == list(motion.tensions[:, 7])
     assert len(motion.summary.to_dataframe()) == len(response.to_dataframe()) == 1
     matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not installed")
     matplotlib.use("svg")

@@ -26,7 +26,7 @@ def test_samples_one_by_one_are_those_of_an_array(caroca):
     assert abs(samples.payload[-1] - 5) < 4 * samples.payload_std[-1] < 1
     assert samples.center.shape == (200, 3) and np.isnan(samples.center[-1, 2])
     assert np.abs(samples.force[:, 2].mean() + 5 * 9.81) < 3
-    assert samples.to_dataframe()["payload"].tolist() == samples.payload.tolist()
+    assert samples.to_dataframe()["payload_kg"].tolist() == samples.payload.tolist()
     pytest.importorskip("matplotlib", reason="matplotlib is not installed").use("svg")
     for drawn, count in ((samples, 200), (sample, 1)):
         (line,) = drawn.plot().axes[0].lines

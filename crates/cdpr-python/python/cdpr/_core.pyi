@@ -1692,8 +1692,9 @@ class Cable:
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -1747,8 +1748,9 @@ class OtherSolution:
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -1793,8 +1795,9 @@ class PathDeviations:
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -1851,8 +1854,9 @@ class Catenary(Generic[_N, _R]):
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -1919,8 +1923,9 @@ class InverseSolution(Generic[_B, _I, _R]):
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2000,8 +2005,9 @@ class DirectSolution(Generic[_N, _B, _I, _W, _R]):
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2090,8 +2096,9 @@ class Deflection(Generic[_N, _B, _I, _W, _R]):
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2150,8 +2157,9 @@ class Response(Generic[_R]):
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2206,8 +2214,9 @@ class Motion:
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2258,8 +2267,9 @@ class Move:
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2297,8 +2307,9 @@ class MoveSummary:
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2345,8 +2356,9 @@ class MotionSummary:
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2408,8 +2420,9 @@ class MotionState:
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2459,8 +2472,9 @@ class Modes(Generic[_N, _R]):
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2526,8 +2540,9 @@ class MasslessModes(Generic[_R]):
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2589,8 +2604,9 @@ class Capacity(Generic[_N, _R]):
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2657,8 +2673,9 @@ class RestInWeather(Generic[_N, _R]):
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2745,8 +2762,9 @@ class Safety(Generic[_R]):
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2828,8 +2846,9 @@ class Boundary:
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2881,8 +2900,9 @@ class Certificate(Generic[_N, _B, _R]):
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -2939,8 +2959,9 @@ class LoadEstimates:
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -3135,8 +3156,9 @@ class PathStates:
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -3217,8 +3239,9 @@ class Stiffness(Generic[_N, _B, _R]):
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -3280,8 +3303,9 @@ class Derivatives(Generic[_N, _B, _I, _W, _R]):
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -3385,8 +3409,9 @@ class Observations(Generic[_N, _R]):
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------
@@ -3428,8 +3453,9 @@ class Workspace:
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each case and columns of numbers and words.
 
-        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `magnitude/a1.x`.
+        Columns have the names of the program's tables, which end in their units. Elements of arrays
+        are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+        `magnitude_mm/a1.x`.
 
         Returns
         -------

@@ -202,33 +202,3 @@ def by_output(
         name: one(name, column, *(part(of, k) for of in more))
         for k, (name, column) in enumerate(zip(names, columns))
     }
-
-
-def frame_of(answer: Any, names: list[str]) -> Any:
-    """A pandas.DataFrame of the fields of a native answer with these names, a row for each case or time."""
-    import numpy
-    import pandas
-
-    rows = getattr(answer, "reasons", None)
-    if rows is None:
-        rows = getattr(answer, "times", None)
-    single, count = rows is None, 1 if rows is None else len(rows)
-    inputs = getattr(answer, "inputs", [])
-    columns: dict[str, Any] = {}
-    for name in names:
-        value = getattr(answer, name)
-        if isinstance(value, list):
-            if not single and len(value) == count:
-                columns[name] = pandas.Series(value, dtype=object)  # None stays None
-            continue
-        if value is None or isinstance(value, (dict, tuple)) or type(value).__module__ == "cdpr":
-            continue
-        array = numpy.asarray(value)[None] if single else numpy.asarray(value)
-        if array.ndim == 0 or len(array) != count:
-            continue
-        for index in numpy.ndindex(array.shape[1:]):
-            labels = [str(k + 1) for k in index]
-            end = f"/{inputs[index[-1]]}" if index and array.shape[-1] == len(inputs) else None
-            head = "_".join([name, *(labels if end is None else labels[:-1])])
-            columns[head + (end or "")] = array[(slice(None), *index)]
-    return pandas.DataFrame(columns)

@@ -170,14 +170,12 @@ class DesignFront:
         Returns
         -------
         pandas.DataFrame
-            The frame: both objectives as `worst_deflection`, the exchange, whether it is an optimum, the
+            The frame: both objectives as `worst_magnitude_mm`, the exchange, whether it is an optimum, the
             variables.
         """
         import pandas
 
-        pairs = zip(self.content["over"], self.content["outputs"])
-        names = [output if output in _OF_ALL_POSES else f"{over}_{output}" for over, output in pairs]
-        frame = pandas.DataFrame(self.objectives, columns=names)
+        frame = pandas.DataFrame(self.objectives, columns=self.content["names"])
         frame["exchange"], frame["optimal"] = self.exchange, self.optimal
         return frame.join(pandas.DataFrame(self.values, columns=self.names))
 

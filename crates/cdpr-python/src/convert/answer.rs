@@ -36,8 +36,9 @@ macro_rules! answer {
 
             /// Makes a frame with a row for each case and columns of numbers and words.
             ///
-            /// Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-            /// name: `magnitude/a1.x`.
+            /// Columns have the names of the program's tables, which end in their units. Elements of arrays
+            /// are numbered from 1, as cables are: `length_1_m`; those of an input have its name:
+            /// `magnitude_mm/a1.x`.
             ///
             /// Returns
             /// -------
@@ -46,7 +47,7 @@ macro_rules! answer {
             fn to_dataframe<'py>(
                 slf: &pyo3::Bound<'py, Self>,
             ) -> pyo3::PyResult<pyo3::Bound<'py, pyo3::PyAny>> {
-                let table = slf.py().import("cdpr._table")?;
+                let table = slf.py().import("cdpr._frame")?;
                 table.call_method1("frame_of", (slf, [$(stringify!($field)),*]))
             }
 

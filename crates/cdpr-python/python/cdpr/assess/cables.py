@@ -113,8 +113,8 @@ class LoadCycle:
         """
         import pandas
 
-        columns = {"payload": self.payloads, **dict(zip(("x", "y", "z"), self.positions.T))}
-        columns.update((f"tensions_{k + 1}", column) for k, column in enumerate(self.tensions.T))
+        columns = {"payload_kg": self.payloads, **dict(zip(("x_m", "y_m", "z_m"), self.positions.T))}
+        columns.update((f"tension_{k + 1}_n", column) for k, column in enumerate(self.tensions.T))
         return pandas.DataFrame(columns)
 
     def plot(self, *, ax: Any = None) -> Any:

@@ -184,8 +184,9 @@ class Plan:
         """
         import pandas
 
-        places = pandas.DataFrame(self.poses, columns=["x", "y", "z", "qw", "qx", "qy", "qz"])
-        return places.join(pandas.DataFrame(self.content["growing"]))
+        places = pandas.DataFrame(self.poses, columns=["x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"])
+        growing = pandas.DataFrame(self.content["growing"])
+        return places.join(growing.rename(columns={name: f"{name}_m" for name in ("mean_at_work", "worst_at_work")}))
 
     def plot(self, *, ax: Any = None) -> Any:
         """Draws the information over the number of poses, and returns the matplotlib Figure.
