@@ -13,6 +13,7 @@
 //! | which way does it act? | [`halves`]; words: [`levels`] |
 //! | which inputs are certain to matter? | [`verdict`], by the tests of [`evidence`] under [`conditions`] |
 //! | which inputs depend on each other? | `verdict::dependence`, `joint`; in a design: `sequence`; on the order of the rows: `order` |
+//! | do they because runs have failed? | `verdict::selection` |
 //! | how much does an input move the distribution of a vector? | `bures` |
 //! | all of these and regression beside each other | [`analysis`] |
 

@@ -11,6 +11,7 @@ mod global;
 mod known_tables;
 mod law;
 mod scrambling;
+mod selection;
 mod sobol;
 mod summary;
 mod verdict;

@@ -94,6 +94,9 @@ fn row_numbers_constant_columns_and_diverged_runs_are_questions() {
     }
     assert_eq!(found.certain.iter().map(|of| of.input.as_str()).collect::<Vec<_>>(), ["x1"]);
     assert_eq!(found.doubtful[0].input, "x2");
+    // A constant input is named by its condition alone, and counted among all.
+    assert!(found.sentences[0].starts_with("1 of 3 inputs"), "{:?}", found.sentences);
+    assert!(found.sentences.iter().all(|sentence| !sentence.contains("constant")), "{:?}", found.sentences);
 }
 
 #[test]

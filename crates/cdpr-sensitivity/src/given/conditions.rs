@@ -25,6 +25,8 @@ pub enum Concern {
     RowsInOrder,
     /// Inputs depend on each other.
     DependentInputs,
+    /// Inputs depend on each other in the rows of the runs that have not failed, and not in all rows.
+    FailedRuns,
     /// Inputs are those of a sequence of low discrepancy.
     Sequence,
     /// An input has one value only.
@@ -57,6 +59,15 @@ impl Condition {
     pub fn is_question(&self) -> bool {
         use Concern::{Constant, Diverged, RepeatedRows, RowNumber, Sentinel};
         matches!(self.concern, RepeatedRows | Constant | RowNumber | Diverged | Sentinel)
+    }
+}
+
+/// The first `most` entries in words, and how many more there are.
+pub(crate) fn listed<T>(all: &[T], most: usize, word: impl Fn(&T) -> String) -> String {
+    let words: Vec<String> = all.iter().take(most).map(word).collect();
+    match all.len().saturating_sub(most) {
+        0 => words.join(", "),
+        more => format!("{} and {more} more", words.join(", ")),
     }
 }
 
@@ -160,12 +171,6 @@ pub(crate) fn of_column(name: Option<&str>, column: &[f64], kind: Kind) -> Optio
     if kind == Kind::Levels {
         return None;
     }
-    if name.is_some() && column.len() >= 8 && column.windows(2).all(|pair| pair[1] - pair[0] == 1.0) {
-        return Some(condition(
-            Concern::RowNumber,
-            format!("{called} numbers the rows: is it an input at all?"),
-        ));
-    }
     if let Some((value, count, [low, high])) = sentinel(column) {
         let shown = if value.abs() < 1e9 { value.to_string() } else { format!("{value:e}") };
         let text = format!(
@@ -185,6 +190,20 @@ pub(crate) fn of_column(name: Option<&str>, column: &[f64], kind: Kind) -> Optio
         if count == 1 { "" } else { "s" },
     );
     Some(condition(Concern::Diverged, text))
+}
+
+/// Whether an input numbers the rows, of which some may be left out.
+pub(crate) fn row_number(name: &str, column: &[f64]) -> Option<Condition> {
+    let text = || format!("input `{name}` numbers the rows: is it an input at all?");
+    let concern = Concern::RowNumber;
+    numbers_rows(column).then(|| Condition { concern, inputs: vec![name.to_owned()], text: text() })
+}
+
+/// Whether values rise by a whole number from each row to the next, by less than two on average.
+pub(crate) fn numbers_rows(column: &[f64]) -> bool {
+    let [first, .., last] = column else { return false };
+    let rises = |pair: &[f64]| pair[1] > pair[0] && (pair[1] - pair[0]).fract() == 0.0;
+    column.len() >= 8 && column.windows(2).all(rises) && last - first < 2.0 * (column.len() as f64 - 1.0)
 }
 
 /// A value that several rows have, at most 30 % of them, far below or above all others: the value, the number

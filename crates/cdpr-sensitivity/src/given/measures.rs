@@ -5,7 +5,7 @@ use rand::seq::index::sample;
 use crate::design::observation::Observed;
 use crate::error::{SensitivityError, check_range};
 use crate::given::analysis::{Analyser, CorrelatedPair, InputAnalysis, MOST_INPUTS, MOST_ROWS};
-use crate::given::conditions::{self, Concern, Condition};
+use crate::given::conditions::{self, Concern, Condition, listed};
 use crate::given::data::{GivenData, Kind};
 use crate::given::delta;
 use crate::given::expansion::{self, GivenExpansion, affordable};
@@ -16,7 +16,7 @@ use crate::given::limit::LEAST_FAILING;
 use crate::given::pawn;
 use crate::given::rank;
 use crate::given::verdict::sequence::coordinates;
-use crate::given::verdict::{Doubt, Table, Verdict, listed};
+use crate::given::verdict::{Doubt, Table, Verdict};
 use crate::measure::regression::{self, Of, ranks, standardized};
 use crate::sample::interval::{Estimate, effective};
 use crate::sample::random::{derived_seed, stream};
@@ -248,6 +248,7 @@ impl<'a> Work<'a> {
         all: &Observed,
         dependence: Option<&[Dependence]>,
     ) -> Verdict {
+        let every = self.every(data);
         let table = Table {
             names: &self.names,
             kinds: &self.kinds,
@@ -256,6 +257,7 @@ impl<'a> Work<'a> {
             coordinate: &self.coordinate,
             dependence,
             rows: self.rows(),
+            every: every.as_ref(),
             outputs: self.analyser.outputs.max(1),
         };
         let mut verdict = table.verdict();
@@ -265,20 +267,31 @@ impl<'a> Work<'a> {
         self.note_repeated(&mut verdict, all.outputs.len());
         for (input, column) in all.columns.iter().enumerate() {
             let (name, kind) = (&data.names()[input], data.kind(input));
-            let condition = conditions::of_column(Some(name), column, kind);
+            // Failed runs have a number, too.
+            let number = || conditions::row_number(name, &data.columns()[input]);
+            let has_number = kind == Kind::Numbers && self.names.len() > 1;
+            let condition = has_number.then(number).flatten();
+            let condition = condition.or_else(|| conditions::of_column(Some(name), column, kind));
             let doubt = |reason: &str| Doubt { input: name.clone(), reason: reason.to_owned() };
             if condition.as_ref().is_some_and(|condition| condition.concern == Concern::Constant) {
                 verdict.doubtful.push(doubt("it is constant"));
             } else if kind == Kind::Levels && levels::codes(column).1 == column.len() {
                 verdict.doubtful.push(doubt("each row has a word of its own"));
             }
-            verdict
-                .conditions
-                .extend(condition.filter(|of| self.names.len() > 1 || of.concern != Concern::RowNumber));
+            verdict.conditions.extend(condition);
         }
         let of_output = conditions::of_column(None, &all.outputs, Kind::Numbers);
         verdict.conditions.extend(of_output.filter(Condition::is_question));
-        verdict.concluded(&self.names)
+        verdict.concluded(&self.names, data.names().len())
+    }
+
+    /// The inputs that vary in all rows, with 1 for a failed run and 0 for others; none where all have an
+    /// output.
+    fn every(&self, data: &GivenData) -> Option<Observed> {
+        let columns = self.varying.iter().map(|&input| data.columns()[input].clone());
+        let failed = || data.outputs().iter().map(|output| f64::from(output.is_none())).collect();
+        let rows = || Observed { columns: columns.collect(), outputs: failed(), failed: 0 };
+        (self.observed.failed > 0).then(|| thinned(&rows(), self.seed(9)))
     }
 
     /// Rows that count once, and settings of which the mean output counts.

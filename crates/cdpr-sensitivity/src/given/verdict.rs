@@ -31,6 +31,7 @@ mod dependence;
 mod joint;
 mod order;
 mod partner;
+mod selection;
 pub(super) mod sequence;
 
 use std::collections::HashSet;
@@ -38,7 +39,7 @@ use std::collections::HashSet;
 use serde::{Deserialize, Serialize};
 
 use crate::design::observation::Observed;
-use crate::given::conditions::{Concern, Condition};
+use crate::given::conditions::{Concern, Condition, listed, numbers_rows};
 use crate::given::data::Kind;
 use crate::given::evidence::{self, MOST_OF_PAIRS, Measure, Test, Tested, Tests};
 use crate::given::hsic::{self, Dependence, Rows};
@@ -133,6 +134,8 @@ pub(crate) struct Table<'a> {
     /// HSIC of these, where it is known.
     pub(crate) dependence: Option<&'a [Dependence]>,
     pub(crate) rows: Rows,
+    /// All rows, with 1 for those that failed and 0 for the others, where some failed.
+    pub(crate) every: Option<&'a Observed>,
     /// Number of outputs of the table.
     pub(crate) outputs: usize,
 }
@@ -157,13 +160,18 @@ impl Table<'_> {
         let inputs = Inputs::new(&tested, self.coordinate, &self.drawn.outputs, self.outputs);
         let found = corrected(&tests);
         let (pairs, mut likely) = (inputs.pairs(), Vec::new());
+        let selected = match self.every {
+            Some(every) => selection::selected(every, self.kinds, &inputs, &pairs),
+            None => vec![],
+        };
         for ((input, tests), companions) in found.iter().zip(inputs.companions(&found)) {
             let mut reasons = Vec::new();
             let with = companions.inputs.iter().map(|other| [*input.min(other), *input.max(other)]);
+            let only = if with.clone().all(|pair| selected.contains(&pair)) { selection::ONLY } else { "" };
             let doubtful: Vec<[usize; 2]> = with.filter(|pair| !pairs.contains(pair)).collect();
             if !companions.inputs.is_empty() {
                 let depends = if doubtful.is_empty() { "depends on " } else { MAY_DEPEND };
-                reasons.push(format!("{depends}{}", self.named(&companions.inputs)));
+                reasons.push(format!("{depends}{}{only}", self.named(&companions.inputs)));
             }
             likely.extend(doubtful);
             if !companions.patterns.is_empty() {
@@ -184,7 +192,9 @@ impl Table<'_> {
             let with = acts.flatten().map(|other| self.names[other].to_owned());
             list.push(Finding { input: name, measure, p_value, with, reasons });
         }
-        self.note_dependence(&mut verdict, "depend", pairs);
+        let of_design = pairs.into_iter().filter(|pair| !selected.contains(pair)).collect();
+        self.note_dependence(&mut verdict, "depend", of_design);
+        verdict.conditions.extend(selection::condition(&selected, self.names));
         self.note_dependence(&mut verdict, "may depend", likely);
         self.note_order(&mut verdict, &in_order);
         verdict
@@ -257,22 +267,16 @@ impl Table<'_> {
 
     fn note_order(&self, verdict: &mut Verdict, in_order: &[Option<Order>]) {
         for order in [Order::Alike, Order::Follows] {
-            let ordered = (0..self.names.len()).filter(|&input| in_order[input] == Some(order));
-            let inputs: Vec<String> = ordered.map(|input| self.names[input].to_owned()).collect();
+            // A number of the rows has a question of its own.
+            let is_ordered =
+                |&input: &usize| in_order[input] == Some(order) && !numbers_rows(&self.units.columns[input]);
+            let ordered: Vec<usize> = (0..self.names.len()).filter(is_ordered).collect();
+            let inputs: Vec<String> = ordered.iter().map(|&input| self.names[input].to_owned()).collect();
             if !inputs.is_empty() {
-                let text = order.note().to_owned();
+                let text = order.note(&self.named(&ordered));
                 verdict.conditions.push(Condition { concern: Concern::RowsInOrder, inputs, text });
             }
         }
-    }
-}
-
-/// The first `most` entries in words, and how many more there are.
-pub(crate) fn listed<T>(all: &[T], most: usize, word: impl Fn(&T) -> String) -> String {
-    let words: Vec<String> = all.iter().take(most).map(word).collect();
-    match all.len().saturating_sub(most) {
-        0 => words.join(", "),
-        more => format!("{} and {more} more", words.join(", ")),
     }
 }
 
@@ -319,14 +323,14 @@ impl Verdict {
         }
     }
 
-    /// Writes the sentences on all inputs that vary.
-    pub(crate) fn concluded(mut self, inputs: &[&str]) -> Self {
+    /// Writes the sentences on the inputs that vary, of so many in all.
+    pub(crate) fn concluded(mut self, inputs: &[&str], all: usize) -> Self {
         let few = self.conditions.iter().any(|condition| condition.concern == Concern::FewRows);
         self.sentences = if few {
             let are = if self.rows == 1 { "is" } else { "are" };
             vec![format!("no verdict: {} {are} too few", counted(self.rows, "different row"))]
         } else {
-            let (certain, all) = (self.certain.len(), counted(inputs.len(), "input"));
+            let (certain, all) = (self.certain.len(), counted(all, "input"));
             let (unless, certain_ones) = (self.unless(), self.certain.iter().collect::<Vec<_>>());
             vec![match certain {
                 0 => format!("none of {all} is certain to matter{unless}"),
@@ -352,8 +356,11 @@ impl Verdict {
             let rows = counted(self.rows, "row");
             self.sentences.push(format!("not settled by {rows}, more of them may: {names}"));
         }
-        let doubt = |doubt: &Doubt| format!("{}: {}", doubt.input, doubt.reason);
-        self.sentences.extend(self.doubtful.iter().map(doubt));
+        // A condition says more of a constant input.
+        let constant = self.conditions.iter().filter(|of| of.concern == Concern::Constant);
+        let said: HashSet<&String> = constant.flat_map(|of| &of.inputs).collect();
+        let doubts = self.doubtful.iter().filter(|doubt| !said.contains(&doubt.input));
+        self.sentences.extend(doubts.map(|doubt| format!("{}: {}", doubt.input, doubt.reason)));
         self
     }
 }

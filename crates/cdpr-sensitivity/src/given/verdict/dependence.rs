@@ -43,7 +43,7 @@ use crate::parallel::*;
 pub(crate) const FALSE_FINDINGS: f64 = 0.05;
 
 /// Probability that independent inputs are said to depend on each other, or to be explained by several.
-const FALSE_PAIRS: f64 = 0.01;
+pub(crate) const FALSE_PAIRS: f64 = 0.01;
 
 /// Probability that independent inputs which are found in a table seem to depend on others.
 const FALSE_DOUBTS: f64 = 0.03;
@@ -106,7 +106,7 @@ impl<'a> Inputs<'a> {
         Self { tested, coordinate, products, output, joint, outputs }
     }
 
-    fn are_coordinates(&self, one: usize, other: usize) -> bool {
+    pub(crate) fn are_coordinates(&self, [one, other]: [usize; 2]) -> bool {
         self.coordinate[one] && self.coordinate[other]
     }
 
@@ -126,10 +126,10 @@ impl<'a> Inputs<'a> {
             let count = others.len() as f64;
             let may_explain = |p: f64| tests[0].p_value.ln() > GREATER * p.ln();
             let depends = |other: usize| {
-                if self.are_coordinates(*input, other) {
+                if self.are_coordinates([*input, other]) {
                     return self.are_copies(*input, other);
                 }
-                let p = self.p_value(*input, other);
+                let p = self.p_value([*input, other]);
                 p * pairs < FALSE_PAIRS || (p * count * tested < FALSE_DOUBTS && may_explain(p))
             };
             let mut inputs: Vec<usize> = others.iter().copied().filter(|other| depends(*other)).collect();
@@ -155,10 +155,10 @@ impl<'a> Inputs<'a> {
         }
         let all: Vec<[usize; 2]> =
             (0..count).flat_map(|one| (one + 1..count).map(move |other| [one, other])).collect();
-        let p_value = |&[one, other]: &[usize; 2]| match self.are_coordinates(one, other) {
+        let p_value = |&[one, other]: &[usize; 2]| match self.are_coordinates([one, other]) {
             true if self.are_copies(one, other) => 0.0,
             true => 1.0,
-            false => self.p_value(one, other),
+            false => self.p_value([one, other]),
         };
         let p_values: Vec<f64> = all.par_iter().map(p_value).collect();
         let of_all = all.len() as f64;
@@ -184,12 +184,9 @@ impl<'a> Inputs<'a> {
         joint.map_or(&[], |of| &of.others)
     }
 
-    /// p of the independence of two inputs: the least of all tests, times their number.
-    fn p_value(&self, one: usize, other: usize) -> f64 {
-        let (one, other) = (&self.tested[one], &self.tested[other]);
-        let mut all = [one_way(one, other), one_way(other, one)].concat();
-        all.extend(of_ranks(one, other));
-        bonferroni(&all)
+    /// p of the independence of a pair.
+    pub(crate) fn p_value(&self, [one, other]: [usize; 2]) -> f64 {
+        p_value(&self.tested[one], &self.tested[other])
     }
 
     /// Other coordinates, and pairs of them, of which the pattern may be what a test finds (Dp1), (Dp2).
@@ -248,6 +245,13 @@ fn products(tested: &[Tested], coordinate: &[bool], output: Option<&Scores>) -> 
     };
     let found: Vec<Vec<Product>> = all.par_iter().enumerate().map(of_one).collect();
     found.into_iter().flatten().collect()
+}
+
+/// p of the independence of two inputs: the least of all tests, times their number.
+pub(crate) fn p_value(one: &Tested, other: &Tested) -> f64 {
+    let mut all = [one_way(one, other), one_way(other, one)].concat();
+    all.extend(of_ranks(one, other));
+    bonferroni(&all)
 }
 
 fn of_ranks(one: &Tested, other: &Tested) -> Option<f64> {

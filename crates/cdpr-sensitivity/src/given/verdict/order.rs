@@ -43,17 +43,17 @@ impl Order {
         }
     }
 
-    /// What holds for all inputs of this kind.
-    pub(crate) const fn note(self) -> &'static str {
+    /// What holds for all `inputs` of this kind.
+    pub(crate) fn note(self, inputs: &str) -> String {
         match self {
-            Self::Alike => {
-                "rows next to each other are alike in the output and in inputs: p-values and intervals are too \
-                 small for these"
-            }
-            Self::Follows => {
-                "inputs follow the order of the rows, as a drift of the output does: rows in random order tell \
-                 them apart"
-            }
+            Self::Alike => format!(
+                "rows next to each other are alike in the output and in inputs ({inputs}): p-values and \
+                 intervals are too small for these"
+            ),
+            Self::Follows => format!(
+                "inputs follow the order of the rows ({inputs}), as a drift of the output does: rows in \
+                 random order separate the two; a time or a count of runs is no input"
+            ),
         }
     }
 }
