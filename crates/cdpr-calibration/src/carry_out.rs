@@ -28,9 +28,10 @@ pub fn carry_out(
     }
     let folder = out.map(|(out, if_exists)| begin_calibration(out, if_exists)).transpose()?;
     let clock = Instant::now();
-    let (rows, factor) = with_noise(campaign)?;
+    let name_columns = |error| campaign.measured.name_columns(error);
+    let (rows, factor) = with_noise(campaign).map_err(name_columns)?;
     let rows = &rows[..];
-    let found = fit(robot, rows, unknowns, settings)?;
+    let found = fit(robot, rows, unknowns, settings).map_err(name_columns)?;
     let seconds = clock.elapsed().as_secs_f64();
     let folds = campaign.folds.min(rows.len());
     let predicted: Option<Vec<Difference>> =

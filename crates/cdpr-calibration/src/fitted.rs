@@ -1,6 +1,7 @@
 //! What is asked of a fit, and what it answers.
 
 use crate::campaign::Quantity;
+use crate::sensor_error::SensorError;
 use crate::unknowns::{Unknowns, map_of};
 use cdpr_robot::{Pose, Robot, Rotation3, Vector3};
 use nalgebra::{DMatrix, DVector};
@@ -337,19 +338,60 @@ impl Fit {
     }
 
     /// Covariance of the parameters of the robot, in the order of [`Parameter::of`].
+    ///
+    /// [`Parameter::of`]: cdpr_robot::Parameter::of
     pub fn parameter_covariance(&self) -> DMatrix<f64> {
-        let Unknowns { terms, all, .. } = &self.unknowns;
-        let map = map_of(terms, [self.deviations.len(), all.len()], |_| 1.0);
+        let count = self.deviations.len();
+        self.position_covariance().view((0, 0), (count, count)).into_owned()
+    }
+
+    /// Covariance of all that a position with given readings of the winches depends on: the parameters, then
+    /// what the offset of each winch changes of its length, then what its scale changes of each metre.
+    pub(crate) fn position_covariance(&self) -> DMatrix<f64> {
+        let map = self.of_position(|_| 1.0);
         &map * &self.covariance * map.transpose()
     }
 
-    /// Roots of a covariance of one scale along each combination that neither data nor priors identify: a
-    /// combination a column, parameters in the order of [`Parameter::of`].
-    ///
-    /// [`Parameter::of`]: cdpr_robot::Parameter::of
-    pub(crate) fn unidentified(&self) -> DMatrix<f64> {
+    /// Derivatives of these by the unknowns, each in its unit.
+    fn of_position(&self, unit: impl Fn(usize) -> f64) -> DMatrix<f64> {
         let Unknowns { terms, all, .. } = &self.unknowns;
-        let map = map_of(terms, [self.deviations.len(), all.len()], |input| all[input].scale);
+        let (count, n) = (self.deviations.len(), self.robot.cables.len());
+        let mut map = map_of(terms, [count + 2 * n, all.len()], &unit);
+        for (k, error) in [SensorError::LengthOffset, SensorError::DrumScale].into_iter().enumerate() {
+            let Some(first) = self.unknowns.sensor(error) else { continue };
+            for i in 0..n {
+                map[(count + k * n + i, first + i)] =
+                    -unit(first + i) / (1.0 + self.error_of_winch(SensorError::DrumScale, i));
+            }
+        }
+        map
+    }
+
+    /// The error of a winch that was found, 0 for one that was not sought.
+    fn error_of_winch(&self, error: SensorError, cable: usize) -> f64 {
+        self.unknowns.sensor(error).map_or(0.0, |first| self.estimates[first + cable].value)
+    }
+
+    /// Whether errors of the winches were sought: a reading is then no length.
+    pub(crate) fn has_errors_of_winches(&self) -> bool {
+        let is_sought = |error| self.unknowns.sensor(error).is_some();
+        is_sought(SensorError::LengthOffset) || is_sought(SensorError::DrumScale)
+    }
+
+    /// The lengths of which the winches read these [m], by the errors that were found.
+    pub(crate) fn lengths(&self, read: &[f64]) -> Vec<f64> {
+        let length = |(i, read): (usize, &f64)| {
+            let [offset, scale] = [SensorError::LengthOffset, SensorError::DrumScale]
+                .map(|error| self.error_of_winch(error, i));
+            (read - offset) / (1.0 + scale)
+        };
+        read.iter().enumerate().map(length).collect()
+    }
+
+    /// Roots of a covariance of one scale along each combination that neither data nor priors identify: a
+    /// combination a column, a row for each row of [`Fit::position_covariance`].
+    pub(crate) fn unidentified(&self) -> DMatrix<f64> {
+        let map = self.of_position(|input| self.unknowns.all[input].scale);
         let is_unknown = |row: &DVector<f64>| !is_known(row.norm(), 1.0);
         let rows = self.roots.posterior.row_iter().map(|row| row.transpose()).filter(is_unknown);
         let columns: Vec<_> = rows.map(|row| &map * row.normalize()).collect();

@@ -6,7 +6,7 @@ pub(crate) mod predicted;
 pub(crate) mod summary;
 mod warnings;
 
-use crate::campaign::Quantity;
+use crate::campaign::{Quantity, Row};
 use crate::fitted::{Difference, Fit};
 use crate::results::predicted::{uncertainty_map, variance_at};
 use crate::results::summary::{
@@ -62,10 +62,11 @@ impl Fit {
         prior.terms.iter().filter(is_gone).copied().collect()
     }
 
-    /// Covariance of all parameters after the fit, with those of the prior that were not sought.
+    /// Covariance of all that a position depends on after the fit, the parameters first, with those of the
+    /// prior that were not sought.
     fn whole_covariance(&self, campaign: &Campaign) -> DMatrix<f64> {
         let scale = self.noise_scale(campaign.measured.noise_is_stated);
-        let covariance = self.parameter_covariance() * (scale * scale);
+        let covariance = self.position_covariance() * (scale * scale);
         let count = covariance.nrows();
         campaign.prior.iter().fold(covariance, |covariance, prior| {
             covariance + prior_covariance(prior, &self.not_sought(campaign), count)
@@ -89,8 +90,14 @@ impl Fit {
         robot
     }
 
-    /// Mean variance of a coordinate of P at the poses of the rows, for a covariance of the parameters [m²].
-    fn position_variance(&self, robot: &Robot, covariance: &DMatrix<f64>, lengths: &[&[f64]]) -> Option<f64> {
+    /// Mean variance of a coordinate of P at the poses of the rows [m²], for a covariance of all that it
+    /// depends on.
+    fn position_variance(
+        &self,
+        robot: &Robot,
+        covariance: &DMatrix<f64>,
+        lengths: &[Vec<f64>],
+    ) -> Option<f64> {
         let rows = self.poses.iter().zip(lengths);
         let variances = rows.map(|(pose, lengths)| variance_at(robot, lengths, pose, covariance));
         let variances = variances.collect::<Option<Vec<f64>>>().filter(|all| !all.is_empty())?;
@@ -104,13 +111,15 @@ impl Fit {
         let stated = |value: Option<f64>| value.filter(|_| *noise_is_stated);
         let covariance = self.whole_covariance(campaign);
         let prior = campaign.prior.map(|prior| prior_covariance(prior, &prior.terms, covariance.nrows()));
-        let lengths: Option<Vec<&[f64]>> = rows.iter().map(|row| row.lengths.as_deref()).collect();
-        let relative = self.unknowns.sensor(SensorError::LengthOffset).is_some();
+        let of_row = |row: &Row| row.lengths.as_deref().map(|read| self.lengths(read));
+        let lengths: Option<Vec<Vec<f64>>> = rows.iter().map(of_row).collect();
         let std_of = |robot: &Robot, covariance: &DMatrix<f64>| {
-            let lengths = lengths.as_ref().filter(|_| !relative)?;
+            let lengths = lengths.as_ref()?;
             self.position_variance(robot, covariance, lengths).map(f64::sqrt)
         };
-        let map = || uncertainty_map(self, campaign.robot, prior.as_ref(), &covariance);
+        // Before, nothing says what the winches read.
+        let before = prior.as_ref().filter(|_| !self.has_errors_of_winches());
+        let map = || uncertainty_map(self, campaign.robot, before, &covariance);
         let after = std_of(&self.robot, &covariance);
         let open = self.unidentified();
         let by_open = (open.ncols() > 0).then(|| std_of(&self.robot, &(&open * open.transpose()))).flatten();
@@ -135,8 +144,8 @@ impl Fit {
             length_constant,
             trends: if *noise_is_stated { self.trends() } else { Vec::new() },
             splits: self.splits(),
-            workspace: if relative || is_open { None } else { map() },
-            position_std_before: prior.as_ref().and_then(|prior| std_of(campaign.robot, prior)),
+            workspace: if is_open { None } else { map() },
+            position_std_before: before.and_then(|prior| std_of(campaign.robot, prior)),
             position_std_after: after.filter(|_| !is_open),
             position_depends_on: if is_open { unknown().collect() } else { Vec::new() },
             steps: self.steps,
@@ -144,7 +153,11 @@ impl Fit {
             starts: self.starts,
             warnings: Vec::new(),
         };
-        summary.warnings = self.warnings(&summary, campaign);
+        let measured = campaign.measured;
+        let columns = summary.outliers.iter_mut().map(|of| &mut of.column);
+        columns.for_each(|column| *column = measured.in_its_names(column));
+        let warnings = self.warnings(&summary, campaign);
+        summary.warnings = warnings.iter().map(|text| measured.in_its_names(text)).collect();
         summary
     }
 

@@ -38,9 +38,41 @@ pub struct Measurements {
     pub noise_is_stated: bool,
     /// Markers that are measured.
     pub markers: usize,
+    /// Names of columns in the file by those of [`Quantity`], where they differ: `x_mm` by `x_m`.
+    pub names: BTreeMap<String, String>,
 }
 
 impl Measurements {
+    /// A text with the names of columns as they are in the file.
+    pub(crate) fn in_its_names(&self, text: &str) -> String {
+        let is_apart = |c: char| !c.is_alphanumeric() && c != '_';
+        let named = |part: &str| {
+            let word = part.trim_end_matches(is_apart);
+            match self.names.get(word) {
+                Some(name) => format!("{name}{}", &part[word.len()..]),
+                None => part.to_owned(),
+            }
+        };
+        text.split_inclusive(is_apart).map(named).collect()
+    }
+
+    /// An error of a fit with the names of columns as they are in the file. The value of a cell is a length
+    /// in m, whatever its column.
+    pub(crate) fn name_columns(&self, error: CalibrationError) -> CalibrationError {
+        match error {
+            CalibrationError::Cell { line, column, value, expected } => CalibrationError::Cell {
+                line,
+                value: if self.names.contains_key(&column) { format!("{value} m") } else { value },
+                column: self.in_its_names(&column),
+                expected,
+            },
+            CalibrationError::Column { column, expected } => {
+                CalibrationError::Column { column: self.in_its_names(&column), expected }
+            }
+            other => other,
+        }
+    }
+
     /// Tensions and swivel angles that no row has of a cable, though some have them of another: they count as
     /// not measured.
     pub fn not_measured(&self, robot: &Robot) -> Vec<Quantity> {
@@ -147,7 +179,10 @@ pub fn read_measurements(
         Column::Reading(Quantity::Marker(k, _)) => Some(k + 1),
         _ => None,
     });
+    let differs = |named: &&Named| !named.is_std && named.column.name() != named.name;
+    let names = columns.iter().filter(differs).map(|named| (named.column.name(), named.name.clone()));
     Ok(Measurements {
+        names: names.collect(),
         noise_is_stated: columns.iter().any(is_stated),
         markers: markers.max().unwrap_or(0),
         rows,

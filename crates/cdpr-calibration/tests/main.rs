@@ -16,4 +16,5 @@ mod refused;
 mod sensors;
 mod speed;
 mod tables;
+mod winches;
 mod wrong_models;

@@ -7,6 +7,7 @@ use cdpr_calibration::{
 use cdpr_robot::{Axis, CableEnd, Pose, Robot, Rotation3, UnitQuaternion, Vector3};
 use cdpr_statics::Load;
 use cdpr_study::{ErrorModel, uncertainties};
+use std::collections::BTreeMap;
 
 /// A table of 1 m with four cables, all in one plane.
 fn table() -> Robot {
@@ -82,7 +83,7 @@ fn summary(robot: &Robot, model: &ErrorModel, rows: Vec<Row>) -> CalibrationSumm
         robot,
         prior: Some(model),
         unknowns: &unknowns,
-        measured: &Measurements { rows, noise_is_stated: true, markers: 0 },
+        measured: &Measurements { rows, noise_is_stated: true, markers: 0, names: BTreeMap::new() },
         name: "measured.csv",
         settings: FitSettings::default(),
         folds: 0,
@@ -235,7 +236,7 @@ fn anchor_points_of_a_point_mass_are_no_parameters() {
     let rows = campaign(&robot, &model, &poses, noise);
     let unknowns = Unknowns::sought(&robot, Some(&model), &[], &[]).unwrap();
     assert!(unknowns.all.len() == 12 && unknowns.all.iter().all(|unknown| unknown.name.starts_with('b')));
-    let measured = Measurements { rows, noise_is_stated: true, markers: 0 };
+    let measured = Measurements { rows, noise_is_stated: true, markers: 0, names: BTreeMap::new() };
     let prior = Some(&model);
     let (settings, name) = (FitSettings::default(), "measured.csv");
     let campaign =

@@ -10,6 +10,7 @@ use cdpr_study::error_model;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
+use std::collections::BTreeMap;
 
 fn campaign(case: &Case, poses: usize, noise: Noise, seed: u64) -> Vec<Row> {
     simulate(&case.simulated(&drawn(&case.model(), seed), &case.poses(poses), noise, seed)).unwrap()
@@ -173,7 +174,7 @@ fn pulleys_in_a_block_have_one_radius_and_one_uncertainty() {
         robot: &case.robot,
         prior: Some(&model),
         unknowns: &unknowns,
-        measured: &Measurements { rows, noise_is_stated: true, markers: 0 },
+        measured: &Measurements { rows, noise_is_stated: true, markers: 0, names: BTreeMap::new() },
         name: "measurements.csv",
         settings: FitSettings::default(),
         folds: 0,

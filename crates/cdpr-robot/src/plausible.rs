@@ -9,6 +9,7 @@
 mod cable;
 mod doubt;
 mod file;
+mod inertia;
 mod layout;
 mod typed;
 mod uncertain;
@@ -17,6 +18,7 @@ mod units;
 pub use cable::{linear_density, span};
 pub use doubt::{Doubt, Doubts, frame, more_than_half_failed, nothing_held};
 pub use file::{reference, robot};
+pub use inertia::Gyration;
 pub use layout::FRAME;
 pub use typed::{
     angles, in_ground, lengths, lengths_at, load, mass, modulus, on_platform, out_of_plane, position,

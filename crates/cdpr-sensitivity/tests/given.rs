@@ -148,7 +148,22 @@ fn a_dependence_without_a_trend_is_found_and_independence_is_not() {
     assert!(found[0].p_value < 1e-10 && found[3].p_value < 0.01 && found[2].p_value > 0.01, "{found:?}");
     assert!(found[0].r_squared > 5.0 * found[2].r_squared, "{found:?}");
     // A trend is not what it is: the halves see nothing.
-    assert!(halves(&data).unwrap()[0].unwrap().student < 3.0);
+    assert!(halves(&data).unwrap()[0].unwrap().student.unwrap() < 3.0);
+}
+
+#[test]
+fn t_of_halves_is_that_of_students_test_of_two_means() {
+    let data = |outputs: &[f64]| {
+        let column = (0..outputs.len()).map(|row| row as f64).collect();
+        let outputs = outputs.iter().copied().map(Some).collect();
+        GivenData::new(vec!["x".to_owned()], vec![column], outputs).unwrap()
+    };
+    let half = |outputs: &[f64]| halves(&data(outputs)).unwrap()[0].unwrap();
+    let found = half(&[1.0, 2.0, 4.0, 3.0, 5.0, 10.0]);
+    assert!((found.effect - 11.0 / 3.0).abs() < 1e-14, "{found:?}");
+    assert!((found.student.unwrap() - 11.0 / 46_f64.sqrt()).abs() < 1e-14, "{found:?}");
+    // Without a variance within the halves there is no t.
+    assert_eq!(half(&[0.1, 0.1, 0.1, 0.3, 0.3, 0.3]).student, None);
 }
 
 #[test]

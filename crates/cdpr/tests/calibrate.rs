@@ -189,7 +189,7 @@ fn bad_measurements_are_named_by_line_and_column() {
         (&|cells| cells[6][11] = "5".to_owned(), "line 7, column qw: 5: expected the quaternion"),
         (
             &|cells| cells[0][0] = "l1_mm".to_owned(),
-            "column l1_m: expected lengths near those of a straight cable",
+            "column l1_mm: expected lengths near those of a straight cable",
         ),
         (&|cells| cells.truncate(1), "measurements is empty: expected a row for each pose below a header"),
         (&|cells| cells.clear(), "measurements is empty: expected a row for each pose below a header"),

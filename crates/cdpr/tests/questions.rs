@@ -183,7 +183,7 @@ fn a_robot_file_is_questioned_for_the_field_that_is_wrong_and_for_no_other() {
                 .for_each(|entry| *entry = json!(factor * entry.as_f64().unwrap()));
         }
     }
-    let cases: [(Change, &str, &str); 9] = [
+    let cases: [(Change, &str, &str); 10] = [
         (
             |robot| inertia(robot, 1e9),
             "\"platform.inertia\"",
@@ -192,7 +192,12 @@ fn a_robot_file_is_questioned_for_the_field_that_is_wrong_and_for_no_other() {
         (
             |robot| inertia(robot, 1e6),
             "\"platform.inertia\"",
-            "36.6 kg m\u{b2}, if 3.660e7 is in kg mm\u{b2}; 3.66 kg m\u{b2}, if it is in g cm\u{b2}",
+            "36.6 kg m\u{b2}, if 3.660e7 is in kg mm\u{b2}\"",
+        ),
+        (
+            |robot| inertia(robot, 1e3),
+            "\"platform.inertia\"",
+            "36.6 kg m\u{b2}, if 3.660e4 is in g m\u{b2} (from g mm\u{b2} multiply by 1e-9",
         ),
         (|robot| inertia(robot, 1e100), "\"platform.inertia\"", "radius of gyration"),
         (

@@ -3,7 +3,7 @@
 use crate::fitted::Fit;
 use crate::model::row::held_lengths;
 use crate::sensor_error::free_axes;
-use cdpr_robot::{Axis, Pose, Robot, Vector3};
+use cdpr_robot::{Axis, CableEnd, Pose, Robot, Vector3};
 use cdpr_statics::{DirectProblem, DirectStart, Load};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -22,7 +22,7 @@ pub struct UncertaintyMap {
     /// Where the plane is along its axis [m]: the mean of the measured poses.
     pub at: f64,
     /// Standard deviation of a coordinate of P with given lengths, before [m], a row after the other; none
-    /// without prior and where the level platform is not held.
+    /// without prior, with errors of the winches, and where the level platform is not held.
     pub before: Vec<Option<f64>>,
     /// After [m].
     pub after: Vec<Option<f64>>,
@@ -44,7 +44,8 @@ impl Serialize for UncertaintyMap {
 /// Points of the map along each axis.
 const POINTS: usize = 9;
 
-/// Mean variance of the free coordinates of P near a pose [m²], with these lengths.
+/// Mean variance of the free coordinates of P near a pose [m²], with these lengths, for a covariance as that
+/// of [`Fit::position_covariance`].
 pub(super) fn variance_at(
     robot: &Robot,
     lengths: &[f64],
@@ -53,16 +54,25 @@ pub(super) fn variance_at(
 ) -> Option<f64> {
     let problem = DirectProblem::new(robot, lengths, &Load::none()).ok()?;
     let found = problem.direct(DirectStart::Pose(pose)).ok()?;
-    let slopes = problem.derivatives(&found.equilibrium).ok()?.pose;
+    let pose = problem.force_derivatives(&found.equilibrium, CableEnd::Anchor).ok()?.pose;
+    let n = lengths.len();
+    let count = covariance.nrows() - 2 * n;
+    let by_lengths = pose.columns(pose.ncols() - n, n);
+    let mut slopes = DMatrix::zeros(3, covariance.nrows());
+    slopes.columns_mut(0, count).copy_from(&pose.view((0, 0), (3, count)));
+    for (i, length) in lengths.iter().enumerate() {
+        for k in 0..3 {
+            slopes[(k, count + i)] = by_lengths[(k, i)];
+            slopes[(k, count + n + i)] = by_lengths[(k, i)] * length;
+        }
+    }
     let axes = free_axes(robot);
-    let variance = |k: &usize| {
-        let slopes = slopes.view((*k, 0), (1, covariance.nrows()));
-        (slopes * covariance * slopes.transpose())[0]
-    };
+    let variance = |k: &usize| (slopes.row(*k) * covariance * slopes.row(*k).transpose())[0];
     Some((axes.iter().map(variance).sum::<f64>() / axes.len() as f64).max(0.0))
 }
 
-/// The map over the box of the measured poses of a fit, for covariances of the parameters before and after.
+/// The map over the box of the measured poses of a fit, for covariances before and after, as that of
+/// [`Fit::position_covariance`].
 pub(crate) fn uncertainty_map(
     fit: &Fit,
     nominal: &Robot,

@@ -77,9 +77,9 @@ pub struct SensorSummary {
 pub struct OutlierSummary {
     /// Line in the file of measurements.
     pub line: usize,
-    /// Column.
+    /// Column, by its name in the file.
     pub column: String,
-    /// Measured less modelled.
+    /// Measured less modelled, in the SI unit.
     pub difference: f64,
     /// In standard deviations of the noise.
     pub standard_deviations: f64,
@@ -137,14 +137,15 @@ pub struct CalibrationSummary {
     pub trends: Vec<Trend>,
     /// Variances of means over consecutive rows.
     pub splits: Vec<Split>,
-    /// Standard deviation of the position over the plane of the measured poses; none with relative lengths.
+    /// Standard deviation of the position over the plane of the measured poses.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub workspace: Option<UncertaintyMap>,
     /// Mean standard deviation of the position at the poses measured, per coordinate, before [m]; none
-    /// without prior.
+    /// without prior, and with errors of the winches.
     #[serde(rename = "position_std_before_m")]
     pub position_std_before: Option<f64>,
-    /// The same after [m]; none where unknowns that nothing identifies displace the platform.
+    /// The same after [m], with the lengths by the offsets and scales of the winches that were found; none
+    /// where unknowns that nothing identifies displace the platform.
     #[serde(rename = "position_std_after_m")]
     pub position_std_after: Option<f64>,
     /// Unknowns that nothing identifies, where they displace the platform.

@@ -82,7 +82,9 @@ class Analysis(Table):
         return "\n".join(self.content["verdict"]["sentences"])
 
     effect = Column("half.effect", "Mean output of the upper half of an input's values less that of the lower half.")
-    student = Column("half.student", "Student's t of the effect, for independent rows.")
+    student = Column(
+        "half.student", "Student's t of the effect, for independent rows; NaN without variance in the halves."
+    )
     standardized = Column("standardized", "Standardized regression coefficients (SRC).")
     rank_standardized = Column("rank_standardized", "Standardized regression coefficients of ranks (SRRC).")
     first = Column("first.value", "First-order Sobol' indices by ranks, or by levels where these are few.")

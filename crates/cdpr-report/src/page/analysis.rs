@@ -162,7 +162,7 @@ fn measures(analysis: &Analysis) -> Markup {
         vec![
             cell(&input.input),
             numeric(input.half.map(|half| half.effect), 3),
-            numeric(input.half.map(|half| half.student), 3),
+            numeric(input.half.and_then(|half| half.student), 3),
             numeric(input.standardized, 3),
             numeric(input.rank_standardized, 3),
             input.first.map_or_else(|| numeric(None, 3), |first| cell(first.percent())),

@@ -4,6 +4,7 @@ use super::cable;
 use super::doubt::{
     Doubt, Doubts, capacity, four_digits, frame_size, in_other_unit, in_other_units, is_possible, reach,
 };
+use super::inertia::Gyration;
 use super::layout;
 use crate::number::visible;
 use crate::robot::{Robot, RobotCable};
@@ -15,8 +16,13 @@ const MASS: Range<f64> = 0.01..1e5;
 /// span, or a ball in their middle.
 const GYRATION: Range<f64> = 0.01..5.0;
 /// Units in which inertia is given besides kg m².
-const INERTIA_UNITS: [(&str, f64); 4] =
-    [("g mm\u{b2}", 1e-9), ("kg mm\u{b2}", 1e-6), ("g cm\u{b2}", 1e-7), ("kg cm\u{b2}", 1e-4)];
+const INERTIA_UNITS: [(&str, f64); 5] = [
+    ("g mm\u{b2}", 1e-9),
+    ("kg mm\u{b2}", 1e-6),
+    ("g cm\u{b2}", 1e-7),
+    ("kg cm\u{b2}", 1e-4),
+    ("g m\u{b2} (from g mm\u{b2} multiply by 1e-9, from kg mm\u{b2} by 1e-6)", 1e-3),
+];
 /// Greatest lead over the size of the frame.
 const LEAD: f64 = 5.0;
 /// Greatest radius of a pulley [m], and over the size of the frame.
@@ -74,7 +80,11 @@ fn inertia(robot: &Robot) -> Option<Doubt> {
         return None;
     }
     let radius = four_digits((greatest / robot.platform.mass).sqrt());
-    let fits = |inertia: f64| (0.1..2.0).contains(&over_size(inertia));
+    let gyration = Gyration::of(robot);
+    let fits = |inertia: f64| match gyration {
+        Some(gyration) => gyration.is_usual(inertia / greatest),
+        None => (0.1..2.0).contains(&over_size(inertia)),
+    };
     let meant = in_other_units(greatest, "kg m\u{b2}", &INERTIA_UNITS, fits);
     Some(Doubt::new(
         "platform.inertia",

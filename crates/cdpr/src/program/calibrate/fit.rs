@@ -9,8 +9,8 @@ use crate::program::output::{Details, Ending, patiently, print_sentence, table, 
 use crate::program::said;
 use cdpr_calibration::{
     Calibrated, CalibrationError, CalibrationSummary, Campaign, Fit, FitSettings, LengthConstant,
-    Measurements, OutlierSummary, ParameterSummary, Quantity, RobustLoss, RowApart, Unknowns, carry_out,
-    read_measurements,
+    Measurements, OutlierSummary, ParameterSummary, Quantity, RobustLoss, RowApart, SensorError, Unknowns,
+    carry_out, read_measurements,
 };
 use cdpr_report::calibration_report;
 use cdpr_robot::{Robot, counted, listing, shown, significant};
@@ -243,6 +243,7 @@ fn print(summary: &CalibrationSummary, loss: RobustLoss) {
             summary.outliers.iter().map(|of| format!("line {} ({})", of.line, of.column)).collect();
         sentences.push(listing("Far from the model: ", &lines, "."));
     }
+    sentences.extend(of_winches(summary));
     sentences.extend(summary.warnings.iter().map(|warning| format!("warning: {warning}")));
     sentences.iter().for_each(|sentence| print_sentence(sentence));
     // A frame begins anywhere: where it is tells nothing of the robot.
@@ -316,6 +317,18 @@ fn values(of: &ParameterSummary) -> [String; 3] {
     };
     let std = of.std.map_or_else(|| "-".to_owned(), |std| significant(std, 2));
     [value(of.before), value(of.after), std]
+}
+
+/// What a controller and a study have to know of errors of the winches that were sought.
+fn of_winches(summary: &CalibrationSummary) -> Option<String> {
+    let errors = [SensorError::LengthOffset, SensorError::DrumScale].map(SensorError::name);
+    let is_sought = |name: &String| errors.iter().any(|error| name.starts_with(error));
+    summary.sensors.keys().any(is_sought).then(|| {
+        "At the length l a winch reads o + (1 + s) l: o and s are length_offset and drum_scale in \
+         summary.json, 0 where they are not sought. posterior.json has neither these nor what the other \
+         errors have to do with them: a study of positions with it has another accuracy."
+            .to_owned()
+    })
 }
 
 /// Three digits of a length.

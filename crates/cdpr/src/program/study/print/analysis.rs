@@ -199,7 +199,7 @@ fn print_inputs(analysis: &Analysis) {
         rows.add_row([
             input.input.clone(),
             input.half.map_or_else(String::new, |half| number(half.effect)),
-            input.half.map_or_else(String::new, |half| format!("{:.1}", half.student)),
+            input.half.and_then(|half| half.student).map_or_else(String::new, |t| format!("{t:.1}")),
             two(input.standardized),
             two(input.rank_standardized),
             first.unwrap_or_default(),
