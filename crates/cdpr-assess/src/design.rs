@@ -145,6 +145,9 @@ pub struct BestOfTypes {
     pub cost: Option<f64>,
     /// Mass of all cables [kg].
     pub mass: Option<f64>,
+    /// Why the first configuration and start with these types does not count, where none does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
 }
 
 /// A variable of a design.
@@ -204,7 +207,7 @@ pub fn design(problem: &DesignProblem) -> Result<Design, AssessError> {
     let feasible = || searched.feasible();
     let best = searched.best();
     let before = problem.evaluate(&problem.nominal(), None).ok();
-    let reason = best.is_none().then(|| searched.reason(problem));
+    let reason = best.is_none().then(|| searched.reason(problem, 0));
     let best = best.map(|(number, best)| {
         let others = feasible().filter(|(k, _)| k / each != number / each).map(|(_, one)| one.objective);
         let next = others.min_by(f64::total_cmp).map(|objective| sign * objective);
@@ -336,18 +339,19 @@ const MOST_CHOICES: usize = 1000;
 fn of_types(problem: &DesignProblem, searched: &Searched, sign: f64) -> Vec<BestOfTypes> {
     let groups: Vec<usize> =
         (0..problem.variables.len()).filter(|j| !problem.variables[*j].cables.is_empty()).collect();
-    let mut best: IndexMap<Vec<usize>, Option<&Found>> = IndexMap::new();
+    // With the first configuration of each choice.
+    let mut best: IndexMap<Vec<usize>, (usize, Option<&Found>)> = IndexMap::new();
     for number in 0..searched.found.len() / searched.each {
         let values = problem.configuration(number);
-        best.entry(groups.iter().map(|j| values[*j] as usize).collect()).or_default();
+        best.entry(groups.iter().map(|j| values[*j] as usize).collect()).or_insert((number, None));
     }
     for (_, found) in searched.feasible() {
-        let of = best.entry(groups.iter().map(|j| found.values[*j] as usize).collect()).or_default();
+        let (_, of) = best.entry(groups.iter().map(|j| found.values[*j] as usize).collect()).or_default();
         if of.is_none_or(|of| found.objective < of.objective) {
             *of = Some(found);
         }
     }
-    let row = |(types, found): (Vec<usize>, Option<&Found>)| {
+    let row = |(types, (first, found)): (Vec<usize>, (usize, Option<&Found>))| {
         let chosen = found.and_then(|found| {
             let lengths: Vec<f64> =
                 problem.evaluate(&found.values, None).ok()?.longest.iter().map(|of| of.value).collect();
@@ -358,6 +362,7 @@ fn of_types(problem: &DesignProblem, searched: &Searched, sign: f64) -> Vec<Best
             objective: found.map(|found| sign * found.objective),
             cost: chosen.as_ref().and_then(|of| of.iter().map(|of| of.cost).sum()),
             mass: chosen.map(|of| of.iter().map(|of| of.mass).sum()),
+            reason: found.is_none().then(|| searched.reason(problem, first)),
         }
     };
     match groups.is_empty() || best.len() > MOST_CHOICES {

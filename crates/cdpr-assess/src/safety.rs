@@ -138,7 +138,8 @@ impl BrokenRest {
 
 /// The robot at a pose under a load with each cable broken alone, and with each pair of cables if asked for.
 ///
-/// A motion needs the inertia of the platform.
+/// A motion needs the inertia of the platform. One whose energy is off, or that strains a cable by more than the
+/// models hold for, is [`DynamicsError::Implausible`].
 ///
 /// # Errors
 /// Those of [`inverse`] at the pose, and [`StaticsError::Unstable`] where the platform does not stay. A break
@@ -236,6 +237,7 @@ fn swing_without(
     let (problem, from) = (DirectProblem::new(robot, &held.lengths, load)?, &held.equilibrium.pose);
     let settings = Settings { rate: (SAMPLES / until).max(SAMPLES), ..Settings::until(until) };
     let series = simulate(&problem, &held.equilibrium, &events, &settings)?;
+    series.check(robot)?;
     let kept: Vec<usize> = (0..robot.cables.len()).filter(|i| !broken.contains(i)).collect();
     let mut tensions = vec![[0.0; 2]; robot.cables.len()];
     for i in &kept {

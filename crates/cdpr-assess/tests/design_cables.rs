@@ -90,7 +90,10 @@ fn the_best_types_are_those_of_all_combinations_one_by_one() {
                     assert!(of(row.objective.unwrap(), *worst) && of(row.cost.unwrap(), *cost), "{row:?}");
                     assert!(of(row.mass.unwrap(), *mass), "{row:?}");
                 }
-                None => assert_eq!((row.objective, row.cost, row.mass), (None, None, None), "{row:?}"),
+                None => {
+                    assert_eq!((row.objective, row.cost, row.mass), (None, None, None), "{row:?}");
+                    assert!(row.reason.as_deref().unwrap().contains("its limit"), "{row:?}");
+                }
             }
         }
         let again = Robot::from_json(&best.robot.to_json()).unwrap();
@@ -124,6 +127,8 @@ fn a_type_that_breaks_under_the_weight_is_left_out() {
     let best = solve(&file, planar(3.0, 1e6)).best.unwrap();
     assert_eq!(best.cables[0].name, "strong");
     assert_eq!(best.cable_types.iter().map(|of| of.objective.is_some()).collect::<Vec<_>>(), [false, true]);
+    let [weak, strong] = [0, 1].map(|k: usize| best.cable_types[k].reason.as_deref());
+    assert!(weak.is_some_and(|weak| weak.contains("cable")) && strong.is_none(), "{weak:?}, {strong:?}");
     // Without the weak one's breaking force the stiffer type is the better one.
     file["cables"][0]["breaking_force"] = json!(1e4);
     assert_eq!(solve(&file, planar(3.0, 1e6)).best.unwrap().cables[0].name, "weak");

@@ -1,8 +1,8 @@
 //! Workspaces: every position is what the models say of it alone.
 
 use cdpr_assess::{
-    Further, TiltDirections, Way, Workspace, WorkspaceSummary, WrenchSet, capacity_at, clearance_under,
-    compute_workspace, tilt_at, workspace_boundary,
+    Further, TiltDirections, Way, Workspace, WorkspaceRow, WorkspaceSummary, WrenchSet, capacity_at,
+    clearance_under, compute_workspace, tilt_at, workspace_boundary,
 };
 use cdpr_dynamics::{Modes, Wanted};
 use cdpr_evidence::accept;
@@ -273,6 +273,11 @@ fn further_columns_are_what_is_said_of_each_pose() {
             assert!((found - 1e3 * near.distance).abs() < 1e-6, "{found} and {near:?} mm");
         }
     }
+    let crosses = |row: &&WorkspaceRow| {
+        let near = [row.nearest_cables_mm, row.nearest_to_platform_mm];
+        row.status == "held" && near.into_iter().flatten().any(|near| near < 0.0)
+    };
+    assert_eq!(summary.crossing, Some(summary.rows.iter().filter(crosses).count()));
     assert!(summary.tilt_deg.unwrap().min > 1.0 && summary.payload_recomputed_kg.unwrap().max > 1000.0);
     let left: usize = summary.left_out.values().sum();
     assert_eq!(left + summary.status["held"], poses.len());

@@ -47,6 +47,12 @@ pub enum DynamicsError {
         /// When [s].
         time: f64,
     },
+    /// A motion that was computed, and that no robot has.
+    #[error("the motion that was computed is not to be trusted: {what}")]
+    Implausible {
+        /// What is wrong with it.
+        what: String,
+    },
     /// A move that no tensions within the limits can accelerate.
     #[error(
         "the move is too fast at {time:.4} s, at ({:.4}, {:.4}, {:.4}) m{}: {source}; give it more seconds",
@@ -126,7 +132,9 @@ impl From<DynamicsError> for StaticsError {
             }
             DynamicsError::TooFast { source, .. } => *source,
             DynamicsError::Jump { .. } => invalid("move", text, "lengths without jumps".to_owned()),
-            DynamicsError::Stalled { .. } => invalid("motion", text, "one that can be followed".to_owned()),
+            DynamicsError::Stalled { .. } | DynamicsError::Implausible { .. } => {
+                invalid("motion", text, "one that can be followed".to_owned())
+            }
             DynamicsError::Folded { .. } | DynamicsError::NotStable { .. } => {
                 invalid("equilibrium", text, "one with natural motions".to_owned())
             }

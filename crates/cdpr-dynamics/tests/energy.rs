@@ -2,7 +2,8 @@
 
 use crate::robots::{ROBOTS, robot};
 use crate::simulated::{at, rest};
-use cdpr_dynamics::simulate::{Change, Energy, Profile, Settings, simulate};
+use cdpr_dynamics::DynamicsError;
+use cdpr_dynamics::simulate::{Change, CutAt, Energy, Profile, Series, Settings, simulate};
 use cdpr_robot::{Pulley, Robot, Vector3};
 use cdpr_statics::{DirectProblem, Load};
 
@@ -69,4 +70,28 @@ fn the_missing_energy_shows_how_exact_the_steps_are() {
         .map(|settings| wound(&robot, (position, free), 3e-3, &settings));
     assert!(fine.drift.abs() < 5e-6 * fine.kinetic, "{fine:?}");
     assert!(coarse.drift.abs() > 5.0 * fine.drift.abs(), "{coarse:?}, {fine:?}");
+}
+
+/// As the answers about a broken cable demand it.
+#[test]
+fn a_motion_that_gains_energy_or_strains_a_cable_too_much_says_nothing_of_a_robot() {
+    let (file, position, free) = ROBOTS[0];
+    let robot = robot(file);
+    let (lengths, rest) = rest(&robot, position, free);
+    let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
+    let cut = at(0.0, Change::Cut { cable: 0, at: CutAt::Anchor });
+    let series = simulate(&problem, &rest, &[cut], &Settings::until(0.02)).unwrap();
+    series.check(&robot).unwrap();
+    let refused = |series: &Series| match series.check(&robot) {
+        Err(DynamicsError::Implausible { what }) => what,
+        other => panic!("{other:?}"),
+    };
+    let mut gaining = series.clone();
+    gaining.energy.drift = 0.02 * gaining.energy.kinetic + 1e-5;
+    assert!(refused(&gaining).starts_with("its energy is off by "), "{}", refused(&gaining));
+    gaining.energy.drift = f64::NAN;
+    refused(&gaining);
+    let mut strained = series;
+    strained.peaks[3].0 = 1e9;
+    assert!(refused(&strained).starts_with("cable 4 is strained by "), "{}", refused(&strained));
 }

@@ -112,7 +112,7 @@ pub fn front(problem: &DesignProblem) -> Result<Front, AssessError> {
         evaluations: first.evaluations,
         dominated: 0,
         lost: 0,
-        reason: first.best().is_none().then(|| first.reason(problem)),
+        reason: first.best().is_none().then(|| first.reason(problem, 0)),
         variables: problem
             .of_parameters()
             .map(|(_, one)| (one.name.clone(), one.parameters[0].0.unit()))

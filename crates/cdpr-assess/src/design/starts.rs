@@ -72,9 +72,9 @@ impl Searched {
         self.feasible().min_by(|(_, a), (_, b)| a.objective.total_cmp(&b.objective))
     }
 
-    /// Why the first start leads to no robot that counts.
-    pub(crate) fn reason(&self, problem: &DesignProblem) -> String {
-        let (values, step) = (problem.configuration(0), (self.starts > 0).then_some(STEP));
+    /// Why the first start in a configuration leads to no robot that counts.
+    pub(crate) fn reason(&self, problem: &DesignProblem, configuration: usize) -> String {
+        let (values, step) = (problem.configuration(configuration), (self.starts > 0).then_some(STEP));
         let of = |poses: Vec<Pose>| DesignProblem { poses, ..problem.clone() };
         match problem.evaluate(&values, step) {
             Err(error) => {

@@ -110,6 +110,11 @@ pub struct WorkspaceRow {
 }
 
 impl WorkspaceRow {
+    /// Whether two cables touch or cross there, or a cable meets the platform, as far as distances are known.
+    pub fn is_crossed(&self) -> bool {
+        [self.nearest_cables_mm, self.nearest_to_platform_mm].into_iter().flatten().any(|near| near < 0.0)
+    }
+
     /// The row of a pose and its result.
     pub fn new(workspace: &Workspace, pose: &WorkspacePose) -> Self {
         let [moved, azimuth, least, greatest] = in_weather(pose);

@@ -49,6 +49,10 @@ pub struct WorkspaceSummary {
     pub left_out: BTreeMap<String, usize>,
     /// Number of positions with tensions above a greatest tension or a breaking force.
     pub too_much: usize,
+    /// Number of positions held at which two cables touch or cross, or a cable meets the platform; absent
+    /// where distances are not asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crossing: Option<usize>,
     /// Number of positions at which each cause dominates.
     pub dominant: BTreeMap<String, usize>,
     /// |dp| [mm] over the positions with status `held`. This and the following are absent without such
@@ -291,6 +295,10 @@ impl WorkspaceSummary {
             recomputed_status,
             left_out: left_out(poses),
             too_much: poses.iter().filter(|pose| pose.is_too_much()).count(),
+            crossing: workspace
+                .further
+                .distances
+                .then(|| rows.iter().filter(|row| row.status == HELD && row.is_crossed()).count()),
             dominant,
             magnitude_mm: held_extremes(&rows, |row| row.magnitude_mm),
             least_stiffness_n_per_m: held_extremes(&rows, |row| row.least_stiffness_n_per_m),

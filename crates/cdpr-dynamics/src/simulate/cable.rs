@@ -6,9 +6,10 @@ mod tangent;
 pub(super) use tangent::CableMatrices;
 
 use super::lead::{Lead, Way};
-use super::mesh::{Forces, Material, Mesh, Points, Pull};
+use super::mesh::{Forces, Material, Mesh, Points, Pull, Rule};
 use super::winch::Reeling;
 use cdpr_robot::{Matrix3, Vector3};
+use std::sync::Arc;
 
 /// Where a cable begins.
 #[derive(Clone, Debug)]
@@ -101,6 +102,12 @@ impl CableInMotion<'_> {
     /// Whether it begins behind a lead that has an unknown.
     pub(super) fn is_led(&self) -> bool {
         matches!(self.start, Start::Led(_)) && self.mesh.is_some()
+    }
+
+    /// A chain of straight elements for it, whose first one is slack wherever a slack cable comes to a pulley.
+    pub(super) fn chain(&self, elements: usize) -> Mesh {
+        let share = if let Start::Led(lead) = &self.start { lead.around() / self.length } else { 0.0 };
+        Mesh::beginning(&Arc::new(Rule::new(1)), elements, share)
     }
 
     /// Whether it is a chain of straight elements.

@@ -2,12 +2,10 @@
 
 use super::cable::Start;
 use super::event::{Change, CutAt, Event};
-use super::mesh::{Mesh, Rule};
 use super::radau::{Equations, Linearization};
 use super::setting::Discretization;
 use super::system::{Snapshot, System};
 use cdpr_robot::Wrench;
-use std::sync::Arc;
 
 impl System<'_> {
     /// Newton's method for the rest of the discrete cables, with the platform free or held; the greatest
@@ -127,22 +125,22 @@ impl System<'_> {
         state: &mut Vec<f64>,
     ) {
         let mut parts = self.parts(state);
-        let chain = Mesh::equal(&Arc::new(Rule::new(elements.degree)), elements.elements);
         for (place, part) in parts.iter_mut().enumerate() {
             let cable = &self.cables[place];
-            let Some(mesh) = &cable.mesh else { continue };
-            if !elements.is_of(mesh) {
-                *part = cable.on(&chain, &self.instant(time, state, cable), self.own(cable, state));
+            let Some(mut mesh) = cable.mesh.clone() else { continue };
+            if !elements.is_of(&mesh) {
+                mesh = cable.chain(elements.elements);
+                *part = cable.on(&mesh, &self.instant(time, state, cable), self.own(cable, state));
             }
             let cable = &mut self.cables[place];
             if slack[cable.index] {
-                let least = cable.material.damping_of_shocks(&chain, cable.length);
+                let least = cable.material.damping_of_shocks(&mesh, cable.length);
                 cable.material.damping = cable.material.damping.max(least);
             }
             if let Start::Led(lead) = &mut cable.start {
                 **lead = lead.straight();
             }
-            cable.mesh = Some(chain.clone());
+            cable.mesh = Some(mesh);
         }
         self.assemble(parts, state);
     }

@@ -16,9 +16,15 @@
 //! are derivatives of one potential. The last term of ë is the weight of the cable that has come out. Cable on
 //! a pulley has no mass, and the wheel has none. The first link of a chain shows where the wheel is: there θ
 //! follows the line to r_1, too, and G has its part.
+//!
+//! The first point of a slack cable may come to the wheel. The line to it leans back towards the swivel axis
+//! then, and the cable lies on more than half of the wheel; a point within the wheel is taken for the nearest
+//! one on it. Without that the length of lead and arc would jump, and a chain gain the energy of its stretch.
+//! Within the wheel it does jump, where the cable would lie on all of it: the first link of a chain is longer
+//! than this, so that it is slack there.
 
 use super::mesh::{Material, Pull};
-use cdpr_cable::{Guide, Straight};
+use cdpr_cable::Guide;
 use cdpr_robot::{Matrix3, Robot, Vector3};
 use std::f64::consts::PI;
 
@@ -115,17 +121,18 @@ impl Lead {
     /// For a cable that leaves along `direction` where its next point is at `next`; its wheel swivels by
     /// itself.
     pub(super) fn bent(self, direction: &Vector3<f64>, next: &Vector3<f64>) -> Self {
-        let straight = self.straight().way(next, 0.0).direction;
-        if self.guide.radius == 0.0 {
-            return Self { bend: Bend::Lean(direction - straight), ..self };
+        let way = self.straight().way(next, 0.0);
+        let Guide { radius, lead, .. } = self.guide;
+        if radius == 0.0 {
+            return Self { bend: Bend::Lean(direction - way.direction), ..self };
         }
         let axis = Vector3::from(self.guide.entry.axis());
-        let [direction, straight] = [direction, &straight].map(|direction| self.levelled(direction));
-        let [angle, from] = [direction, straight].map(|direction| angle_of(&direction, &axis));
+        let [direction, straight] = [direction, &way.direction].map(|direction| self.levelled(direction));
+        let (angle, from) = (angle_of(&direction, &axis), PI - (way.guided - lead) / radius);
         let across = [direction, straight].map(|direction| direction - axis * axis.dot(&direction));
         let outwards = across.iter().find_map(|across| across.try_normalize(1e-9));
         let outwards = outwards.unwrap_or_else(|| perpendicular(&axis));
-        let arm = self.guide.radius * (1.0 + angle.cos()).max(LEAST_ARM);
+        let arm = radius * (1.0 + angle.cos()).max(LEAST_ARM);
         let swivel = Some(Swivel { outwards, arm });
         Self { bend: Bend::Turned(angle - from), swivel, ..self }
     }
@@ -150,39 +157,38 @@ impl Lead {
 
     /// The way of a cable to its next point; `swivelled` [m] is the unknown of a wheel that swivels by itself.
     pub(super) fn way(&self, next: &Vector3<f64>, swivelled: f64) -> Way {
-        let end = self.levelled(&(next - self.entry));
-        match (self.bend, self.guide.straight(end)) {
-            (Bend::Turned(more), Some(straight)) => {
-                let at = self.on_wheel(&end, &straight, [more, swivelled]);
-                let turn = |turn: Turn| Turn {
-                    along: self.back(&turn.along),
-                    inwards: self.back(&turn.inwards),
-                    slope: self.back(&turn.slope),
-                    ..turn
-                };
-                Way {
-                    point: self.entry + self.back(&at.point),
-                    direction: self.back(&at.direction),
-                    turns: at.turns.map(turn),
-                    ..at
-                }
-            }
-            (bend, _) => self.towards(&(next - self.entry), bend),
+        let Bend::Turned(more) = self.bend else { return self.towards(&(next - self.entry)) };
+        let at = self.on_wheel(&self.levelled(&(next - self.entry)), [more, swivelled]);
+        let turn = |turn: Turn| Turn {
+            along: self.back(&turn.along),
+            inwards: self.back(&turn.inwards),
+            slope: self.back(&turn.slope),
+            ..turn
+        };
+        Way {
+            point: self.entry + self.back(&at.point),
+            direction: self.back(&at.direction),
+            turns: at.turns.map(turn),
+            ..at
         }
     }
 
     /// The way from a wheel, in the levelled frame from D.
-    fn on_wheel(&self, end: &Vector3<f64>, straight: &Straight, [more, swivelled]: [f64; 2]) -> Way {
+    fn on_wheel(&self, end: &Vector3<f64>, [more, swivelled]: [f64; 2]) -> Way {
         let axis = Vector3::from(self.guide.entry.axis());
-        let away = end - axis * axis.dot(end);
-        let (x, radius) = (away.norm().max(f64::MIN_POSITIVE), self.guide.radius);
-        let outwards = away / x;
+        let (height, radius) = (axis.dot(end), self.guide.radius);
+        let away = end - axis * height;
+        let (least, x) = (NEAREST * radius, away.norm());
+        let outwards = away.try_normalize(f64::MIN_POSITIVE).unwrap_or_else(|| perpendicular(&axis));
+        // As `Guide::straight`, from any place.
+        let from_center = x - radius;
+        let free = from_center.mul_add(from_center, height * height - radius * radius).max(0.0).sqrt();
+        let from = height.atan2(from_center) + free.atan2(radius);
+        let (x, free) = (x.max(least), free.max(least));
         let turned = self.swivel.map_or(outwards, |Swivel { outwards, arm }| {
             let (sin, cos) = (swivelled / arm).sin_cos();
             outwards * cos + axis.cross(&outwards) * sin
         });
-        let to_end = (end - straight.leave) / straight.free;
-        let from = angle_of(&to_end, &axis);
         let (sin, cos) = (from + more).sin_cos();
         let (normal, direction) = (turned * cos + axis * sin, turned * sin - axis * cos);
         let about_axis = Turn {
@@ -197,22 +203,22 @@ impl Lead {
             inwards: -direction,
             distance: 0.0,
             share: 1.0,
-            slope: (outwards * from.cos() + axis * from.sin()) / straight.free,
+            slope: (outwards * from.cos() + axis * from.sin()) / free,
         };
         Way {
             point: turned * (radius * (1.0 + cos)) + axis * (radius * sin),
             direction,
-            guided: straight.guided - radius * more,
-            free: straight.free,
+            guided: self.guide.lead + radius * (PI - from - more),
+            free,
             turns: [about_axis, about_leave],
         }
     }
 
     /// The way from the entry, to a point from there.
-    fn towards(&self, end: &Vector3<f64>, bend: Bend) -> Way {
+    fn towards(&self, end: &Vector3<f64>) -> Way {
         let free = end.norm().max(f64::MIN_POSITIVE);
         let to_end = end / free;
-        let leaning = to_end + if let Bend::Lean(lean) = bend { lean } else { Vector3::zeros() };
+        let leaning = to_end + if let Bend::Lean(lean) = self.bend { lean } else { Vector3::zeros() };
         let direction = leaning.normalize();
         let first = perpendicular(&direction);
         let turn = |along: Vector3<f64>| Turn {
@@ -244,7 +250,12 @@ impl Lead {
     /// How the end moves with the next point, G, and with the unknown of a wheel that swivels by itself.
     pub(super) fn turning(&self, way: &Way, longer: f64) -> (Matrix3<f64>, Option<Vector3<f64>>) {
         let beyond = self.beyond(way, longer);
-        let by = |turn: &Turn| turn.along * turn.slope.transpose() * turn.radius(beyond);
+        // Behind its next point the end would turn by more than that, without bound at the wheel.
+        let radius = |turn: &Turn| {
+            let most = 1.0 / turn.slope.norm();
+            turn.radius(beyond).min(most).max(-most)
+        };
+        let by = |turn: &Turn| turn.along * turn.slope.transpose() * radius(turn);
         let [about_axis, about_leave] = &way.turns;
         match &self.swivel {
             Some(Swivel { arm, .. }) => {
@@ -273,6 +284,12 @@ impl Lead {
             }
             None => (of(about_axis) + of(about_leave), None),
         }
+    }
+
+    /// Most by which the line to a point near the wheel is longer than at rest, with a quarter of a turn to
+    /// spare [m].
+    pub(super) fn around(&self) -> f64 {
+        self.guide.lead + 2.5 * PI * self.guide.radius - self.stretched
     }
 
     /// Tension of the lead, and its slopes by `longer` and by its rate.
@@ -327,6 +344,10 @@ impl Bend {
 /// radius of the wheel.
 const LEAST_ARM: f64 = 0.1;
 
+/// Least distance of the next point from the swivel axis, and along the line to it, with which turns are
+/// computed, relative to the radius of the wheel.
+const NEAREST: f64 = 1e-3;
+
 /// The angle of the leave point of a cable that leaves in a direction, from the wheel's outermost point.
 fn angle_of(direction: &Vector3<f64>, axis: &Vector3<f64>) -> f64 {
     let along = axis.dot(direction);
@@ -336,4 +357,38 @@ fn angle_of(direction: &Vector3<f64>, axis: &Vector3<f64>) -> f64 {
 /// A unit vector across a unit vector.
 fn perpendicular(direction: &Vector3<f64>) -> Vector3<f64> {
     direction.cross(&if direction.x.abs() < 0.8 { Vector3::x() } else { Vector3::y() }).normalize()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At rest a cable leaves the wheel along a horizontal line.
+    fn on_wheel() -> Lead {
+        let guide = Guide { lead: 1.0, radius: 0.05, entry: cdpr_cable::Entry::Upwards };
+        let (entry, stretched, bend) = (Vector3::zeros(), 1.0 + 0.025 * PI, Bend::of(&guide));
+        Lead { guide, entry, level: None, unstrained: 1.0, stretched, slide: 0.0, bend, swivel: None }
+    }
+
+    #[test]
+    fn a_cable_that_leans_back_under_its_wheel_grows_no_more_than_its_point_moves() {
+        const STEP: f64 = 1e-3;
+        for z in [-0.051, -0.1, -1.0, 0.051] {
+            let way = |k: i32| on_wheel().way(&Vector3::new(STEP * f64::from(k), 0.0, z), 0.0);
+            let lengths: Vec<f64> = (-300..300).map(way).map(|way| way.guided + way.free).collect();
+            let most = lengths.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
+            assert!(most <= STEP * (1.0 + 1e-9), "{z} m: {most} m");
+        }
+    }
+
+    #[test]
+    fn at_the_wheel_a_cable_is_shorter_than_its_first_link_and_turns_no_more_than_its_point() {
+        for (i, k) in (-30..30).flat_map(|i| (-30..30).map(move |k| (i, k))) {
+            let ([x, z], lead) = ([i, k].map(|of| 2e-3 * f64::from(of)), on_wheel());
+            let way = lead.way(&Vector3::new(x, 1e-4, z), 0.0);
+            let longer = way.guided + way.free - lead.stretched;
+            let turning = lead.turning(&way, 0.0).0.norm();
+            assert!(longer < lead.around() && turning < 2.0, "({x}, {z}) m: {longer} m, {turning}");
+        }
+    }
 }

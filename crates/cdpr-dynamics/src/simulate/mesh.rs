@@ -184,6 +184,18 @@ impl Mesh {
         Self { rule: Arc::clone(rule), ends }
     }
 
+    /// Elements of the same length, but for a first one that is longer where it is to have this share of the
+    /// free length, up to a half.
+    pub(super) fn beginning(rule: &Arc<Rule>, elements: usize, share: f64) -> Self {
+        let (mut mesh, others) = (Self::equal(rule, elements), elements as f64 - 1.0);
+        if elements > 1 && share > mesh.ends[1] {
+            let first = share.min(0.5);
+            let place = |(k, end): (usize, &mut f64)| *end = first + (1.0 - first) * k as f64 / others;
+            mesh.ends[1..].iter_mut().enumerate().for_each(place);
+        }
+        mesh
+    }
+
     /// Number of elements.
     pub(super) fn elements(&self) -> usize {
         self.ends.len() - 1

@@ -2,7 +2,8 @@
 
 use super::radau::Work;
 use super::setting::Discretization;
-use cdpr_robot::{Doubt, Pose, Robot, Vector6, short};
+use crate::error::DynamicsError;
+use cdpr_robot::{Doubt, Pose, Robot, Vector6, short, significant};
 use cdpr_statics::MAX_STRAIN;
 
 /// The platform and its cables at a time.
@@ -97,6 +98,29 @@ impl Series {
             why,
             "a smaller force or motion, or stiffer cables",
         ))
+    }
+
+    /// Whether it is a motion that says something of the robot.
+    ///
+    /// # Errors
+    /// [`DynamicsError::Implausible`] where its energy is off, as only that of a wrong computation is, or where
+    /// a cable is strained by more than the models hold for.
+    pub fn check(&self, robot: &Robot) -> Result<(), DynamicsError> {
+        /// Share of the greatest kinetic energy by which the energy may be off: that of velocities which err by
+        /// half of it.
+        const OFF: f64 = 0.01;
+        /// Rounding of energies [J].
+        const ROUNDING: f64 = 1e-6;
+        let Energy { kinetic, drift, .. } = self.energy;
+        // Also where it is NaN.
+        if !(drift.abs() <= OFF * kinetic + ROUNDING) {
+            let [drift, kinetic] = [drift, kinetic].map(|energy| significant(energy, 3));
+            let what = format!("its energy is off by {drift} J, where the kinetic one reaches {kinetic} J");
+            return Err(DynamicsError::Implausible { what });
+        }
+        self.overstrained(robot).map_or(Ok(()), |Doubt { quantity, value, why, .. }| {
+            Err(DynamicsError::Implausible { what: format!("{quantity} is {value}, and {why}") })
+        })
     }
 
     /// The greatest differences to the same motion computed otherwise.

@@ -173,7 +173,8 @@ impl Settings {
         let mut lead = Lead::new(robot, index, &material, (&direction, tension));
         let tension_at = |share: f64| free.tension(FromLeavePoint(share * free.unstrained_length));
         let mesh = (density > 0.0).then(|| {
-            let mut mesh = Mesh::equal(rule, elements);
+            let around = lead.as_ref().filter(|_| rule.degree == 1).map_or(0.0, Lead::around);
+            let mut mesh = Mesh::beginning(rule, elements, around / free.unstrained_length);
             while rule.degree > 1 && !whole.is_slack_and_weightless() && mesh.ends.len() <= MOST_ELEMENTS {
                 let still = Points::still(mesh.shares().iter().map(|share| point(*share)));
                 if mesh.is_exact(&material, (free.unstrained_length, &still), tension_at) {

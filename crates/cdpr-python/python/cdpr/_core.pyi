@@ -2777,8 +2777,9 @@ class Safety(Generic[_R]):
     @property
     def endings(self) -> list[Any]:
         """How each break ends: `held`, `overloaded` (another cable is beyond its greatest tension or
-        breaking force), `below_ground`, `turned_over` (by more than a right angle), or the kind of
-        failure where no rest was found; a list of k.
+        breaking force), `below_ground`, `turned_over` (by more than a right angle), `unknown` (the motion
+        is not known, or its peak is too uncertain), or the kind of failure where no rest was found; a
+        list of k.
         """
     @property
     def moved(self) -> _Floats:

@@ -129,6 +129,7 @@ impl From<DynamicsError> for Raised {
         let kind = match error {
             DynamicsError::Statics(error) => return error.into(),
             DynamicsError::Stalled { .. } => "stalled",
+            DynamicsError::Implausible { .. } => "implausible",
             DynamicsError::Folded { .. } => "folded",
             DynamicsError::NotStable { .. } => "not_stable",
             DynamicsError::TooFast { .. } => "too_fast",

@@ -23,8 +23,9 @@ answer! {
         /// Numbers of the broken cables, from 1: `"3"`, `"3+4"`; a list of k.
         broken: Py<PyAny>,
         /// How each break ends: `held`, `overloaded` (another cable is beyond its greatest tension or
-        /// breaking force), `below_ground`, `turned_over` (by more than a right angle), or the kind of
-        /// failure where no rest was found; a list of k.
+        /// breaking force), `below_ground`, `turned_over` (by more than a right angle), `unknown` (the motion
+        /// is not known, or its peak is too uncertain), or the kind of failure where no rest was found; a
+        /// list of k.
         endings: Py<PyAny>,
         /// How far the platform moves [m], (k,).
         moved: Py<PyAny>,
@@ -140,6 +141,7 @@ fn ending(broken: &Broken) -> String {
         Ok(rest) if rest.is_overloaded() || swing.is_some_and(Swing::is_overloaded) => "overloaded",
         Ok(rest) if rest.below_ground || swing.is_some_and(|swing| swing.below_ground) => "below_ground",
         Ok(rest) if rest.turns_over() => "turned_over",
+        Ok(_) if broken.swing.is_some() && swing.is_none_or(|swing| swing.may_be_overloaded) => "unknown",
         Ok(_) => "held",
     };
     word.to_owned()

@@ -250,8 +250,10 @@ fn print_cables(found: &Design, best: &BestDesign) {
         columns.remove(1);
     }
     let mut rows = table(&columns);
-    for BestOfTypes { types, objective, cost, mass } in &best.cable_types {
+    let mut reasons = Vec::new();
+    for BestOfTypes { types, objective, cost, mass, reason } in &best.cable_types {
         let types = types.iter().map(|name| shown(name)).collect::<Vec<_>>().join(", ");
+        reasons.extend(reason.iter().map(|reason| format!("With {types} no robot counts: {reason}.")));
         let objective = objective.map_or_else(|| "none".to_owned(), |of| significant(of, 4));
         let cost =
             cost.map_or_else(|| if with_objective { "" } else { "none" }.to_owned(), |of| significant(of, 4));
@@ -262,6 +264,7 @@ fn print_cables(found: &Design, best: &BestDesign) {
         rows.add_row(cells);
     }
     println!("{rows}");
+    reasons.iter().for_each(|reason| print_sentence(reason));
 }
 
 fn none(robot: &Robot, found: &Design) -> String {

@@ -254,7 +254,8 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     }
     let few = questions::few_held(&summary);
     few.iter().for_each(|few| eprintln!("warning: {few}"));
-    Ok(if summary.too_much > 0 || few.is_some() { Ending::SomethingWrong } else { Ending::Well })
+    let is_wrong = summary.too_much > 0 || summary.crossing.is_some_and(|count| count > 0) || few.is_some();
+    Ok(if is_wrong { Ending::SomethingWrong } else { Ending::Well })
 }
 
 /// At how many positions no motion is the platform's own.
@@ -294,6 +295,7 @@ fn print(summary: &WorkspaceSummary) {
         let positions = counted(summary.too_much, "position");
         print_sentence(&format!("At {positions} tensions are above tension_limits.max or a breaking force."));
     }
+    crossing(summary, held).iter().for_each(|crossing| print_sentence(crossing));
     let mut rows = table(&["over the positions held", "least", "greatest"]);
     for (name, extremes) in ranges(summary) {
         if let Some(Extremes { min, max, .. }) = extremes {
@@ -338,6 +340,22 @@ fn print(summary: &WorkspaceSummary) {
         ));
     }
     print_region(summary);
+}
+
+/// At how many of the positions held cables cross or meet the platform, with the first one of them.
+fn crossing(summary: &WorkspaceSummary, held: usize) -> Option<String> {
+    let count = summary.crossing.filter(|count| *count > 0)?;
+    let first = summary.rows.iter().find(|row| row.status == HELD && row.is_crossed())?;
+    let met = |near: Option<f64>, what: String| near.filter(|near| *near < 0.0).map(|_| what);
+    let pair = first.nearest_cables.iter().map(|pair| format!("cables {}", pair.replace(' ', " and ")));
+    let pair = met(first.nearest_cables_mm, format!("{} touch or cross", pair.collect::<String>()));
+    let cable = first.nearest_to_platform.unwrap_or_default();
+    let platform = met(first.nearest_to_platform_mm, format!("cable {cable} crosses the platform"));
+    let what = pair.into_iter().chain(platform).collect::<Vec<_>>().join(", ");
+    let [x, y, z] = [first.x_m, first.y_m, first.z_m].map(|at| significant(at, 4));
+    Some(format!(
+        "At {count} of {held} positions held cables touch or cross each other or the platform, first at          ({x}, {y}, {z}) m: {what}."
+    ))
 }
 
 /// How large the region held is.

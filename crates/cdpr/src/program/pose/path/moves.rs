@@ -9,7 +9,7 @@ use crate::program::output::{Ending, patiently, progress};
 use crate::program::pose::at_pose::RobotAtPose;
 use crate::program::pose::modes::with_inertia;
 use crate::program::questions;
-use after::After;
+use after::{After, is_shaped};
 use answer::{Answer, Robots};
 use cdpr_assess::DrawnRobots;
 use cdpr_dynamics::moves::{FeedForward, Move, SetPoint, Shaper, ShaperKind, residual};
@@ -151,10 +151,17 @@ pub(super) fn run(
         let simulated = plain.watched(seconds, wanted.damping)?;
         let unshaped = plain.plan()?;
         let after = |points: &[SetPoint]| residual(&robot, &plain.load, points, &[], &simulated);
-        let (shaped, without) = patiently("simulating the move and what swings after it", || {
-            rayon::join(|| after(&set_points), || after(&unshaped))
+        // Where the move has both, the shaper has to do better than feed-forward alone.
+        let has_both = is_shaped(&planned) && planned.feed_forward != FeedForward::None;
+        let alone = has_both.then(|| Move { shaper: Shaper::default(), ..planned.clone() });
+        let alone = alone.map(|alone| alone.plan()).transpose()?;
+        let (shaped, (without, alone)) = patiently("simulating the move and what swings after it", || {
+            let others = || rayon::join(|| after(&unshaped), || alone.as_deref().map(&after).transpose());
+            rayon::join(|| after(&set_points), others)
         });
-        answer.residual = Some(After::new(&planned, &shaped?, &without?, simulated.until));
+        let (without, alone) = (without?, alone?);
+        let others = (&without, alone.as_ref());
+        answer.residual = Some(After::new(&planned, &shaped?, others, simulated.until));
         if let (Some(model), Some(seed)) = (&model, wanted.seed) {
             let count = wanted.robots.unwrap_or(ROBOTS);
             let drawn = DrawnRobots { nominal: &robot, model, count, seed };

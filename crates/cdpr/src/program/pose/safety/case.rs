@@ -275,9 +275,15 @@ impl Case {
             None if self.is_overloaded() => "overloaded",
             None if self.is_below_ground() => "below_ground",
             None if self.turns_over() => "turned_over",
+            None if self.is_unknown() => "unknown",
             None => "held",
         };
         word.to_owned()
+    }
+
+    /// Whether the motion is followed, and does not show whether the other cables bear it.
+    fn is_unknown(&self) -> bool {
+        self.swing.is_some() && self.swinging().is_none_or(|swing| swing.may_be_overloaded)
     }
 
     /// Whether another cable is loaded too much, at rest or on the way.
@@ -339,7 +345,13 @@ impl Case {
         };
         let slack =
             (!rest.slack_cables.is_empty()).then(|| format!("slack: {}", numbers(&rest.slack_cables)));
-        self.wrong().into_iter().chain(slack).collect::<Vec<_>>().join("; ")
+        let wrong = self.wrong().map(|wrong| match &self.swing {
+            Some(Motion::Failed { error }) if self.bad().is_none() && !self.turns_over() => {
+                format!("{wrong}: {error}")
+            }
+            _ => wrong,
+        });
+        wrong.into_iter().chain(slack).collect::<Vec<_>>().join("; ")
     }
 }
 
