@@ -93,17 +93,17 @@ pub enum SensitivityError {
     },
     /// The rows of a table depend on each other, as those of a sequence of low discrepancy do.
     #[error(
-        "neighbours in column {} are farther apart in column {} than those of independent rows (z = {z:.1}): \
-         expected random rows or a Latin hypercube; rows of a sequence have estimators by design",
+        "the rows depend on each other: {pattern}, most in columns {} and {}: expected random rows or a \
+         Latin hypercube; rows of a sequence have estimators by design",
         input + 1, other + 1
     )]
     DependentRows {
-        /// Index of the input in which they are neighbours.
+        /// Index of an input.
         input: usize,
-        /// Index of the other input.
+        /// Index of another one.
         other: usize,
-        /// How many standard deviations they are farther apart.
-        z: f64,
+        /// What shows it.
+        pattern: RowPattern,
     },
     /// All values of a sample are equal. No law of two parameters fits such a sample, and its variance has no
     /// shares.
@@ -290,4 +290,21 @@ pub(crate) fn check_values(
     let (index, value) = largest;
     let held = value == 0.0 || (1e-150..=1e150).contains(&value.abs());
     if held { Ok(()) } else { Err(SensitivityError::Scale { field, index, value }) }
+}
+
+/// How rows depend on each other.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum RowPattern {
+    /// Neighbours in the one input are ordered in the other.
+    #[error("neighbours in one are ordered in another (z = {z:.1})")]
+    Neighbours {
+        /// How many standard deviations their product differs from that of independent rows.
+        z: f64,
+    },
+    /// The rows fill the plane of the two inputs more evenly than independent ones.
+    #[error("they fill a plane of two more evenly than by chance (z = {z:.1})")]
+    Even {
+        /// How many standard deviations the evenness differs from that of independent rows.
+        z: f64,
+    },
 }

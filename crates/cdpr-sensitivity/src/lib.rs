@@ -81,7 +81,7 @@ pub use design::saltelli::{Order, SaltelliDesign};
 pub use design::shapley::ShapleyDesign;
 pub use design::sobol::{Sobol, SobolDesign};
 pub use design::{IndependentSample, JointSample, Layout, POINTS_VERSION, SampleDesign};
-pub use error::SensitivityError;
+pub use error::{RowPattern, SensitivityError};
 pub use family::Family;
 pub use given::analysis::{Analyser, Analysis, CorrelatedPair, InputAnalysis};
 #[cfg(feature = "faer")]

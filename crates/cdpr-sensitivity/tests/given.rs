@@ -368,7 +368,7 @@ fn first_order_indices_by_ranks_refuse_rows_of_a_sequence_and_take_random_ones_a
             SobolDesign::scrambled(unit(inputs), rows, 1).unwrap(),
         ] {
             let error = found(&design, sum).unwrap_err();
-            assert!(matches!(error, SensitivityError::DependentRows { z, .. } if z > 5.0), "{error}");
+            assert!(matches!(error, SensitivityError::DependentRows { .. }), "{error}");
         }
         for seed in 0..5 {
             found(&RandomDesign::new(unit(inputs), rows, seed).unwrap(), sum).unwrap();

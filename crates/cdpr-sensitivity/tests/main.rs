@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod common;
+mod dependent_rows;
 mod design;
 mod effect;
 mod fit;

@@ -24,7 +24,7 @@
 //! - A root of an estimate is too small in the mean. A jackknife over 20 groups of rows takes this bias of
 //!   the order 1/n away and gives the interval: B. Efron, C. Stein, *The jackknife estimate of variance*,
 //!   Ann. Stat. 9 (1981). It is of Student's form, for independent rows. Those of a sequence are refused
-//!   ([`rank`](crate::given::rank), Eq. (Ra7)): the correction would be wrong for them.
+//!   ([`rank`](crate::given::rank)): the correction would be wrong for them.
 //!
 //! Correlated inputs count each for what they tell of the output. No unit.
 
@@ -32,7 +32,7 @@ use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{SensitivityError, check_finite, check_length, check_level, check_range};
-use crate::given::rank::{check_rows, order};
+use crate::given::rank::rows::{Patterns, order};
 use crate::measure::linear_algebra::symmetric_eigen;
 use crate::parallel::*;
 use crate::sample::interval::Estimate;
@@ -98,7 +98,7 @@ pub fn wasserstein_bures(
     }
     let select = |column: &Vec<f64>| -> Vec<f64> { kept.iter().map(|&row| column[row]).collect() };
     let columns: Vec<Vec<f64>> = columns.iter().map(select).collect();
-    check_rows(&columns, seed)?;
+    Patterns::new(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>(), seed).check()?;
     let mut groups: Vec<usize> = (0..kept.len()).map(|place| place % GROUPS).collect();
     groups.shuffle(&mut stream(seed, 0));
     let mut whole = vec![Moments::new(vectors[0].len()); GROUPS];

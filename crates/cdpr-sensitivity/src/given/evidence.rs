@@ -38,7 +38,8 @@ use statrs::function::gamma::ln_gamma;
 
 use crate::given::data::Kind;
 use crate::given::hsic::{Invariants, moments};
-use crate::given::rank::{MIN_ROWS as ROWS_OF_NEIGHBOURS, order};
+use crate::given::rank::MIN_ROWS as ROWS_OF_NEIGHBOURS;
+use crate::given::rank::rows::order;
 use crate::measure::regression::ranks;
 use crate::parallel::*;
 

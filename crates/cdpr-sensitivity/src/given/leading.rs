@@ -5,6 +5,7 @@
 
 use crate::given::analysis::{Analysis, InputAnalysis};
 use crate::given::conditions::{Concern, Condition};
+use crate::given::rank::OF_SEQUENCE;
 use crate::given::verdict::{Finding, counted};
 use crate::sample::interval::{Estimate, is_resolved};
 
@@ -123,7 +124,7 @@ fn shares_caption(analysis: &Analysis) -> Option<String> {
     });
     let is_of_a_sequence = |condition: &Condition| condition.concern == Concern::Sequence;
     let by_ranks = match analysis.verdict.conditions.iter().any(is_of_a_sequence) {
-        true => "shares by ranks need independent rows, and these are of a sequence (Sobol', Halton)",
+        true => OF_SEQUENCE,
         false => "ranks have no shares of these inputs (the notes of the details say why)",
     };
     if let Some(unexplained) = unexplained {

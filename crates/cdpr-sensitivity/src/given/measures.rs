@@ -162,6 +162,10 @@ impl<'a> Work<'a> {
         };
         let of_ranks = match by_ranks.is_empty() {
             true => None,
+            false if self.coordinate.contains(&true) => {
+                notes.0.push(format!("first-order indices: {}", rank::OF_SEQUENCE));
+                None
+            }
             false => notes.unless("first-order indices", rank::of_observed(&of_ranks, level, self.seed(2))),
         };
         let of_input = |i: usize| match by_ranks.iter().position(|&rank| rank == i) {

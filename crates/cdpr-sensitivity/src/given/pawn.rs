@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::SensitivityError;
 use crate::given::data::GivenData;
-use crate::given::rank::order;
+use crate::given::rank::rows::order;
 use crate::parallel::*;
 use crate::sample::random::stream;
 

@@ -33,39 +33,34 @@
 //!
 //! `cargo xtask statistics given` counts how often the intervals hold the index.
 //!
-//! The rows must be independent of each other. Neighbours in one input of Sobol's sequence lie far apart in
-//! others by its construction: indices of such rows are wrong by 0.3 to 0.5. With u the ranks over n, r their
-//! correlation and m neighbours in input i,
-//!
-//! ```text
-//! z_ij = (mean((u_j' - u_j)²) - (1 - r_ij²) / 6) / √(1 / (20 m))                      (Ra7)
-//! ```
-//!
-//! of each input i and the 64 next ones j is at most 3.4 for 62 inputs of random rows and of Latin
-//! hypercubes, and from 256 rows on 6 to 34 for five and more inputs of Sobol's sequence, plain or scrambled.
-//! Rows with a z above 5 are refused.
+//! The rows must be independent of each other: those of a sequence of low discrepancy are refused
+//! (`rank/rows.rs`).
 //!
 //! The inputs must be independent of each other: what a correlated input causes is counted for both. Rows of
 //! equal values of an input are put into random order. No unit.
 
-use rand::seq::SliceRandom;
+pub(crate) mod rows;
 
 use crate::design::observation::Observed;
 use crate::error::{SensitivityError, check_level, check_range};
 use crate::given::data::GivenData;
+use crate::given::rank::rows::{Patterns, order};
 use crate::parallel::*;
 use crate::sample::interval::{Estimate, effective};
-use crate::sample::random::stream;
 use crate::sample::summary::Spread;
 
 /// Least number of rows.
 pub const MIN_ROWS: usize = 30;
 
+/// Why rows of a sequence have none.
+pub(crate) const OF_SEQUENCE: &str =
+    "shares by ranks need independent rows, and these are of a sequence (Sobol', Halton)";
+
 /// First-order index (Ra2) of each input with its interval at a confidence `level` in (0, 1).
 ///
 /// # Errors
 /// - [`SensitivityError::OutOfRange`] for fewer than [`MIN_ROWS`] outputs;
-/// - [`SensitivityError::DependentRows`] for rows of a sequence (Ra7);
+/// - [`SensitivityError::DependentRows`] for rows that depend on each other (`rows`);
 /// - [`SensitivityError::ConstantSample`] if all outputs are equal;
 /// - [`SensitivityError::InvalidParameter`] for a level outside (0, 1).
 pub fn rank_indices(data: &GivenData, level: f64, seed: u64) -> Result<Vec<Estimate>, SensitivityError> {
@@ -79,66 +74,14 @@ pub(crate) fn of_observed(
 ) -> Result<Vec<Estimate>, SensitivityError> {
     check_level(level)?;
     check_range("observed outputs", observed.outputs.len() as u64, MIN_ROWS as u64, u64::MAX)?;
-    check_rows(&observed.columns, seed)?;
+    let columns: Vec<&[f64]> = observed.columns.iter().map(Vec::as_slice).collect();
+    Patterns::new(&columns, seed).check()?;
     let of_input = |(input, column): (usize, &Vec<f64>)| {
         let sorted: Vec<f64> =
             order(column, seed, input).into_iter().map(|row| observed.outputs[row]).collect();
         of_sorted(&sorted, level)
     };
     observed.columns.par_iter().enumerate().map(of_input).collect()
-}
-
-/// Rows in ascending order of values; those of equal values are in random order.
-pub(crate) fn order(values: &[f64], seed: u64, input: usize) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.shuffle(&mut stream(seed, input as u64));
-    order.sort_by(|&i, &j| values[i].total_cmp(&values[j]));
-    order
-}
-
-/// Largest z (Ra7) of independent rows.
-pub(crate) const LARGEST_Z: f64 = 5.0;
-
-/// Checks that neighbours in one input are no farther apart in another than those of independent rows (Ra7).
-pub(crate) fn check_rows(columns: &[Vec<f64>], seed: u64) -> Result<(), SensitivityError> {
-    match farthest(columns, seed).iter().enumerate().find(|(_, (z, _))| *z > LARGEST_Z) {
-        Some((input, &(z, other))) => Err(SensitivityError::DependentRows { input, other, z }),
-        None => Ok(()),
-    }
-}
-
-/// The largest z (Ra7) of each input, 0 or more, and the other input that has it.
-pub(crate) fn farthest(columns: &[Vec<f64>], seed: u64) -> Vec<(f64, usize)> {
-    /// Neighbours that are looked at, and other inputs that are.
-    const MOST: usize = 2048;
-    const OTHERS: usize = 64;
-    let orders: Vec<Vec<usize>> =
-        columns.par_iter().enumerate().map(|(input, column)| order(column, seed, input)).collect();
-    let of_order = |order: &Vec<usize>| {
-        let mut ranks = vec![0.0; order.len()];
-        order
-            .iter()
-            .enumerate()
-            .for_each(|(place, &row)| ranks[row] = (place as f64 + 0.5) / order.len() as f64);
-        ranks
-    };
-    let ranks: Vec<Vec<f64>> = orders.par_iter().map(of_order).collect();
-    let of_input = |(i, order): (usize, &Vec<usize>)| {
-        let step = order.len() / MOST + 1;
-        let z = |j: usize| {
-            let product = |(one, other): (&f64, &f64)| (one - 0.5) * (other - 0.5);
-            let correlation =
-                12.0 * ranks[i].iter().zip(&ranks[j]).map(product).sum::<f64>() / order.len() as f64;
-            let apart = |pair: &[usize]| (ranks[j][pair[1]] - ranks[j][pair[0]]).powi(2);
-            let squares: Vec<f64> = order.windows(2).step_by(step).map(apart).collect();
-            let count = squares.len() as f64;
-            let expected = (1.0 - correlation * correlation) / 6.0;
-            (squares.iter().sum::<f64>() / count - expected) * (20.0 * count).sqrt()
-        };
-        let others = (i + 1..i + columns.len()).map(|j| j % columns.len()).take(OTHERS);
-        others.map(|j| (z(j), j)).fold((0.0, i), |most, of| if of.0 > most.0 { of } else { most })
-    };
-    orders.par_iter().enumerate().map(of_input).collect()
 }
 
 /// The index (Ra2) and its interval, from the outputs in the order of an input.

@@ -35,7 +35,7 @@
 
 use crate::given::data::Kind;
 use crate::given::evidence::{MOST_OF_PAIRS, Scores, Space, Test, Tested, bonferroni};
-use crate::given::rank::order;
+use crate::given::rank::rows::order;
 use crate::given::verdict::joint::{Joint, joint};
 use crate::parallel::*;
 
