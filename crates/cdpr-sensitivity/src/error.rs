@@ -301,6 +301,15 @@ pub enum RowPattern {
         /// How many standard deviations their product differs from that of independent rows.
         z: f64,
     },
+    /// Rows have values of several inputs in common.
+    #[error(
+        "rows have inputs of others, as in designs of Saltelli (SALib), {:.0} % of two that share one",
+        100.0 * share
+    )]
+    Shared {
+        /// Share of further inputs that rows with the same value of one have in common.
+        share: f64,
+    },
     /// The rows fill the plane of the two inputs more evenly than independent ones.
     #[error("they fill a plane of two more evenly than by chance (z = {z:.1})")]
     Even {

@@ -3,7 +3,8 @@
 use crate::common::{rows, unit};
 use crate::known_tables::Source;
 use cdpr_sensitivity::{
-    Analyser, GivenData, Halton, LatinHypercube, RandomDesign, SobolDesign, rank_indices,
+    Analyser, GivenData, Halton, LatinHypercube, RandomDesign, RowPattern, SensitivityError, SobolDesign,
+    rank_indices,
 };
 use rayon::prelude::*;
 
@@ -126,6 +127,59 @@ fn random_rows_and_latin_hypercubes_have_indices() {
         ] {
             assert!(count.refused == 0 && count.wrong <= 3, "{name}, {inputs}: {count:?}");
             assert!(count.missed <= 2 * inputs && count.found >= 18, "{name}, {inputs}: {count:?}");
+        }
+    }
+}
+
+/// Blocks of two points and of those with one input exchanged, with the output sin 6 x1, in random order.
+fn saltelli(inputs: usize, blocks: usize, seed: u64) -> GivenData {
+    let mut source = Source::new(seed);
+    let mut rows = Vec::new();
+    for _ in 0..blocks {
+        let [a, b] = [0, 1].map(|_| source.uniforms(inputs));
+        for input in 0..inputs {
+            let mut exchanged = a.clone();
+            exchanged[input] = b[input];
+            rows.push(exchanged);
+        }
+        rows.extend([a, b]);
+    }
+    let keys = source.uniforms(rows.len());
+    let mut order: Vec<usize> = (0..rows.len()).collect();
+    order.sort_by(|&a, &b| keys[a].total_cmp(&keys[b]));
+    let columns = (0..inputs).map(|input| order.iter().map(|&row| rows[row][input]).collect()).collect();
+    let names = (1..=inputs).map(|input| format!("x{input}")).collect();
+    GivenData::new(names, columns, order.iter().map(|&row| Some((6.0 * rows[row][0]).sin())).collect())
+        .unwrap()
+}
+
+/// Inert inputs would have shares of 25 to 60 %.
+#[test]
+fn rows_with_inputs_of_others_have_no_shares_by_ranks() {
+    for (inputs, blocks) in [(3, 40), (6, 25), (10, 20)] {
+        for seed in 0..TABLES {
+            let found = rank_indices(&saltelli(inputs, blocks, seed), 0.95, 1);
+            let is_shared = |error: &SensitivityError| {
+                matches!(error, SensitivityError::DependentRows { pattern: RowPattern::Shared { .. }, .. })
+            };
+            assert!(found.as_ref().is_err_and(is_shared), "{inputs} {seed}: {found:?}");
+        }
+    }
+    // Rounded, random inputs, which depend on each other or not, have values in common, but no rows.
+    for seed in 0..TABLES {
+        let mut source = Source::new(seed);
+        let common = source.uniforms(200);
+        for share in [0.0, 0.7] {
+            let column = |_| -> Vec<f64> {
+                let own = source.uniforms(200);
+                let mixed = own.iter().zip(&common).map(|(own, common)| share * common + (1.0 - share) * own);
+                mixed.map(|value| (40.0 * value).round()).collect()
+            };
+            let columns: Vec<Vec<f64>> = (0..4).map(column).collect();
+            let y = columns[0].iter().zip(&common).map(|(x, noise)| Some(x + 5.0 * noise)).collect();
+            let names = (1..=4).map(|input| format!("x{input}")).collect();
+            let found = rank_indices(&GivenData::new(names, columns, y).unwrap(), 0.95, 1);
+            assert!(found.is_ok(), "{share} {seed}: {found:?}");
         }
     }
 }

@@ -18,8 +18,19 @@
 //!   inputs that depend on each other above. Coordinates of sequences that are rounded are found by this
 //!   alone.
 //!
-//! Rows depend on each other if Z, or the largest z of all, has p < 1e-5, or if the mean c is below 0.6 of
-//! the least one possible. Latin hypercubes that are optimized have c, but no z: they pass.
+//! - **Shared values**: in designs of Saltelli a row has all inputs but one of another row, and shuffled it
+//!   still has. Of rows next to each other in input i that have the same value of it, let K of T be the
+//!   values of others that they share, too, and F those that they share by chance:
+//!
+//! ```text
+//! K > 0.1 T,   K > F + 5 √F,   mean (s - s')² > 1 of values that they do not share     (Rw4)
+//! ```
+//!
+//! for every input of which a quarter of the rows has a value of another row, three inputs at least. By the
+//! last one inputs that are rounded and depend on each other have no shared values.
+//!
+//! Rows depend on each other if (Rw4) is met, if Z, or the largest z of all, has p < 1e-5, or if the mean c
+//! is below 0.6 of the least one possible. Latin hypercubes that are optimized have c, but no z: they pass.
 //!
 //! An input is a *coordinate* if, moreover, the sum of its c that are below zero is 2 deviations below that
 //! of random rows. So inputs on a circle are none, whose points leave most of the square empty.
@@ -87,7 +98,7 @@ impl Patterns {
         let pair = |&[one, other]: &[usize; 2]| Pair::new(&ranked[one], &ranked[other]);
         let pairs: Vec<Pair> = couples.par_iter().map(pair).collect();
         let rows = columns.first().map_or(0, |column| column.len());
-        let found = neighbours(&pairs).or_else(|| even(&pairs, rows));
+        let found = shared(&ranked, columns).or_else(|| neighbours(&pairs)).or_else(|| even(&pairs, rows));
         Self { pairs, columns: columns.len(), found }
     }
 
@@ -117,6 +128,35 @@ pub(crate) fn order(values: &[f64], seed: u64, input: usize) -> Vec<usize> {
     order.shuffle(&mut stream(seed, input as u64));
     order.sort_by(|&i, &j| values[i].total_cmp(&values[j]));
     order
+}
+
+/// By (Rw4).
+fn shared(ranked: &[Ranked], columns: &[&[f64]]) -> Option<(RowPattern, [usize; 2])> {
+    let rows = columns.first()?.len();
+    let tied: Vec<(&Ranked, Vec<[usize; 2]>)> = ranked
+        .iter()
+        .map(|of| (of, of.ties(columns[of.column])))
+        .filter(|(_, ties)| 4 * ties.len() >= rows)
+        .collect();
+    let [(first, _), (second, _), _, ..] = &tied[..] else { return None };
+    let share = |(of, ties): &(&Ranked, Vec<[usize; 2]>)| {
+        let (mut pairs, mut equal, mut chance, mut apart) = (0.0, 0.0, 0.0, 0.0);
+        for (other, _) in tied.iter().filter(|(other, _)| other.column != of.column) {
+            let values = columns[other.column];
+            pairs += ties.len() as f64;
+            chance += ties.len() as f64 * other.chance(values);
+            for &[a, b] in ties {
+                let is_equal = values[a] == values[b];
+                equal += f64::from(u8::from(is_equal));
+                apart += (other.scores[a] - other.scores[b]).powi(2);
+            }
+        }
+        let holds = equal > 0.1 * pairs && equal > chance + 5.0 * chance.sqrt() && apart > pairs - equal;
+        holds.then_some(equal / pairs)
+    };
+    let shares = tied.iter().map(share).collect::<Option<Vec<f64>>>()?;
+    let share = shares.iter().sum::<f64>() / shares.len() as f64;
+    Some((RowPattern::Shared { share }, [first.column, second.column]))
 }
 
 /// By (Rw2), or by the largest (Rw1).
@@ -163,6 +203,18 @@ impl Ranked {
         let mut parts = vec![0; n];
         order.iter().enumerate().for_each(|(place, &row)| parts[row] = place * SIDE / n);
         Some(Self { column, scores: standardized(ranks(values))?, order, parts })
+    }
+
+    /// Rows next to each other that have the same value.
+    fn ties(&self, values: &[f64]) -> Vec<[usize; 2]> {
+        let pairs = self.order.windows(2).map(|pair| [pair[0], pair[1]]);
+        pairs.filter(|&[a, b]| values[a] == values[b]).collect()
+    }
+
+    /// Probability that two rows at random have the same value.
+    fn chance(&self, values: &[f64]) -> f64 {
+        let runs = self.order.chunk_by(|&a, &b| values[a] == values[b]);
+        runs.map(|run| (run.len() as f64 / values.len() as f64).powi(2)).sum()
     }
 
     /// (Rw1) of another column.

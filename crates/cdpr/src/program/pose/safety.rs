@@ -252,33 +252,33 @@ impl Answer {
             print_sentence(&sentence);
         }
         let mut rows = table(match followed {
-            true => &[
-                "broken",
-                "moves [m]",
-                "at rest [N]",
-                "swings [m]",
-                "peak [N]",
-                "in cable",
-                "safety factor",
-                "",
-            ],
-            false => &["broken", "moves [m]", "turns [deg]", "greatest [N]", "in cable", "safety factor", ""],
+            true => {
+                &["broken", "moves [m]", "at rest [N]", "swings [m]", "peak [N]", "in cable", "safety factor"]
+            }
+            false => &["broken", "moves [m]", "turns [deg]", "greatest [N]", "in cable", "safety factor"][..],
         });
         let Greatest { cable, tension } = self.greatest_tension;
         let (still, tension) = ("0".to_owned(), significant(tension, 4));
         let [cable, least] = [cable.to_string(), self.factor.cell(cable)];
         rows.add_row(match followed {
-            true => {
-                ["none".to_owned(), still, tension, String::new(), String::new(), cable, least, String::new()]
-                    .to_vec()
-            }
-            false => ["none".to_owned(), still.clone(), still, tension, cable, least, String::new()].to_vec(),
+            true => ["none".to_owned(), still, tension, String::new(), String::new(), cable, least].to_vec(),
+            false => ["none".to_owned(), still.clone(), still, tension, cable, least].to_vec(),
         });
+        let mut remarks: Vec<(String, Vec<String>)> = Vec::new();
         for case in &self.broken {
             let cells = if followed { case.with_swing() } else { case.at_rest() };
-            rows.add_row([numbers(&case.cables)].into_iter().chain(cells).chain([case.remark()]));
+            rows.add_row([numbers(&case.cables)].into_iter().chain(cells));
+            let (remark, cables) = (case.remark(), case.cables.iter().map(ToString::to_string));
+            let cables = cables.collect::<Vec<_>>().join("+");
+            match remarks.iter_mut().find(|(known, _)| *known == remark) {
+                Some((_, cases)) => cases.push(cables),
+                None => remarks.push((remark, vec![cables])),
+            }
         }
         println!("{rows}");
+        for (remark, cases) in remarks.iter().filter(|(remark, _)| !remark.is_empty()) {
+            print_sentence(&format!("Without {}: {remark}.", cases.join(" or ")));
+        }
         if let Some(ground) = self.assumed_ground {
             print_sentence(&format!(
                 "The robot file has no `ground_z`: the ground is assumed at z = {} m.",
