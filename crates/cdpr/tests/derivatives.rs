@@ -86,8 +86,8 @@ fn without_a_load_there_are_all_derivatives_but_those_of_the_displacement() {
         assert_eq!(json["without"][0], why);
         let (_, stiffness) = found.least_stiffness(&robot, &Load::none()).unwrap();
         for (j, slope) in stiffness.iter().take(found.inputs.parameters.len()).enumerate() {
-            assert_eq!(json["least_stiffness"][j].as_f64(), Some(*slope));
-            assert_eq!(json["unstrained_lengths"][j][0].as_f64(), Some(found.lengths[(0, j)]));
+            assert_eq!(json["least_stiffness_n_per_m"][j].as_f64(), Some(*slope));
+            assert_eq!(json["lengths"][j][0].as_f64(), Some(found.lengths[(0, j)]));
         }
         let shown = unwrapped(run(&data(name), &["--pose", at]).stdout);
         assert!(shown.contains(why) && !shown.contains("|dp|"), "{shown}");

@@ -197,7 +197,7 @@ fn a_robot_file_is_questioned_for_the_field_that_is_wrong_and_for_no_other() {
         (
             |robot| inertia(robot, 1e3),
             "\"platform.inertia\"",
-            "36.6 kg m\u{b2}, if 3.660e4 is in g m\u{b2} (from g mm\u{b2} multiply by 1e-9",
+            "36.6 kg m\u{b2}, if 36600 is in g m\u{b2} (from g mm\u{b2} multiply by 1e-9",
         ),
         (|robot| inertia(robot, 1e100), "\"platform.inertia\"", "radius of gyration"),
         (

@@ -28,8 +28,9 @@ pub fn template_notes(robot: &Robot) -> String {
     let free = match robot.is_fully_actuated() {
         true => "",
         false => {
-            " free: coordinates of the pose that are
-                   found, as many as cables are missing;"
+            "
+                   free: coordinates of the pose that are found, as many as
+                   cables are missing;"
         }
     };
     let wrench =
