@@ -100,7 +100,7 @@ fn without_a_load_there_are_all_derivatives_but_those_of_the_displacement() {
         let cells = lines.records().next().unwrap().unwrap();
         let cell = |column: &str| &cells[names.iter().position(|name| name == column).unwrap()];
         assert_eq!((cell("magnitude_mm/mass"), cell("dz_mm/mass")), ("", ""));
-        assert_eq!(cell("least_stiffness/mass").parse::<f64>().unwrap(), stiffness[0]);
+        assert_eq!(cell("least_stiffness_n_per_m/mass").parse::<f64>().unwrap(), stiffness[0]);
     }
 }
 

@@ -262,12 +262,8 @@ fn a_row_of_a_break_names_the_cable_whose_limit_is_passed_most() {
     assert!(beyond.len() > 1, "{swing}");
     let most = swing["peak_tension"]["cable"].as_u64().unwrap();
     assert_ne!(beyond[0]["cable"], most, "{swing}");
-    // The words of a cell are over several lines.
-    let row = printed.lines().skip_while(|line| !line.starts_with("│ 3 "));
-    let row = row.take_while(|line| !line.starts_with(['├', '└']));
-    let said: Vec<&str> = row.filter_map(|line| line.split(['│', '┆']).rev().nth(1)).collect();
-    let said = said.join(" ").split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(said.starts_with(&format!("cable {most} breaks, too, on the way")), "{said}\n{printed}");
+    let words = printed.replace('\n', " ");
+    assert!(words.contains(&format!("Without 3: cable {most} breaks, too, on the way")), "{printed}");
 }
 
 #[test]

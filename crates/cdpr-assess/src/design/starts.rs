@@ -142,8 +142,11 @@ fn starts(problem: &DesignProblem, further: &[Vec<f64>]) -> Result<Option<Vec<Ve
         let mut point = vec![0.0; nominal.len()];
         sobol.point(index as u32, &mut point).map(|()| point).map_err(too_many)
     };
-    let others = |first: usize| (first..DRAWS * problem.starts).step_by(problem.starts).map(point).collect();
-    let others: Vec<Vec<Vec<f64>>> = (1..problem.starts).map(others).collect::<Result<_, _>>()?;
-    let further = further.iter().map(|values| vec![in_box(values)]);
-    Ok(Some([vec![nominal.clone()]].into_iter().chain(others).chain(further).collect()))
+    let drawn = |first: usize| (first..DRAWS * problem.starts).step_by(problem.starts).map(point).collect();
+    let mut starts: Vec<Vec<Vec<f64>>> = (0..problem.starts)
+        .map(|k| drawn(if k == 0 { problem.starts } else { k }))
+        .collect::<Result<_, _>>()?;
+    starts[0].insert(0, nominal.clone());
+    starts.extend(further.iter().map(|values| vec![in_box(values)]));
+    Ok(Some(starts))
 }

@@ -113,7 +113,8 @@ impl Series {
         const ROUNDING: f64 = 1e-6;
         let Energy { kinetic, drift, .. } = self.energy;
         // Also where it is NaN.
-        if !(drift.abs() <= OFF * kinetic + ROUNDING) {
+        let stays = drift.abs() <= OFF * kinetic + ROUNDING;
+        if !stays {
             let [drift, kinetic] = [drift, kinetic].map(|energy| significant(energy, 3));
             let what = format!("its energy is off by {drift} J, where the kinetic one reaches {kinetic} J");
             return Err(DynamicsError::Implausible { what });
