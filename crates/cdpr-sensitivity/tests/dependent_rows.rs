@@ -34,7 +34,7 @@ fn table(rows: &[Vec<f64>], keep: impl Fn(usize) -> bool, noise: &mut Source) ->
     GivenData::new(names, columns, rows.iter().enumerate().map(y).collect()).unwrap()
 }
 
-fn counted(name: &str, of: impl Fn(u64) -> GivenData + Sync) -> Count {
+fn counted(of: impl Fn(u64) -> GivenData + Sync) -> Count {
     let variance = 4.0 / 12.0 + 7.0 / 144.0 + 0.09;
     let truth = [1.0 / 3.0, 1.0 / 48.0, 1.0 / 48.0].map(|of| of / variance);
     let one = |seed: u64| {
@@ -56,14 +56,12 @@ fn counted(name: &str, of: impl Fn(u64) -> GivenData + Sync) -> Count {
     };
     let all: Vec<Count> = (0..TABLES).into_par_iter().map(one).collect();
     let sum = |of: fn(&Count) -> usize| all.iter().map(of).sum::<usize>();
-    let count = Count {
+    Count {
         refused: sum(|of| of.refused),
         missed: sum(|of| of.missed),
         wrong: sum(|of| of.wrong),
         found: sum(|of| of.found),
-    };
-    println!("{name}: {count:?}");
-    count
+    }
 }
 
 fn sobol(inputs: usize, points: usize, seed: u64) -> Vec<Vec<f64>> {
@@ -96,7 +94,7 @@ fn kronecker(inputs: usize, points: usize, seed: u64) -> Vec<Vec<f64>> {
 fn rows_of_a_sequence_have_no_indices_and_no_false_effect_though_some_are_deleted_failed_or_rounded() {
     let whole = |rows: Vec<Vec<f64>>, seed: u64| table(&rows, |_| true, &mut Source::new(seed));
     let of = |name: &str, tables: &(dyn Fn(u64) -> GivenData + Sync)| {
-        let count = counted(name, tables);
+        let count = counted(tables);
         // Of 6 inputs and 20 tables, 5 % are 6.
         assert!(count.wrong <= 1 && count.missed <= 2 && count.refused >= 18, "{name}: {count:?}");
         assert!(count.found >= 18, "{name}: {count:?}");
@@ -121,10 +119,9 @@ fn random_rows_and_latin_hypercubes_have_indices() {
     for (inputs, points) in [(3, 40), (6, 200), (20, 300)] {
         let random = |seed| rows(&RandomDesign::new(unit(inputs), points, seed).unwrap(), 1);
         let latin = |seed| rows(&LatinHypercube::new(unit(inputs), points, seed).unwrap(), 1);
-        for (name, count) in [
-            ("random", counted(&format!("random, {inputs}"), |seed| whole(&random, seed))),
-            ("Latin", counted(&format!("Latin, {inputs}"), |seed| whole(&latin, seed))),
-        ] {
+        for (name, count) in
+            [("random", counted(|seed| whole(&random, seed))), ("Latin", counted(|seed| whole(&latin, seed)))]
+        {
             assert!(count.refused == 0 && count.wrong <= 3, "{name}, {inputs}: {count:?}");
             assert!(count.missed <= 2 * inputs && count.found >= 18, "{name}, {inputs}: {count:?}");
         }
