@@ -132,7 +132,7 @@ def test_a_robot_goes_to_caspr_and_back(tmp_path):
     assert again.mass == pytest.approx(robot.mass) and list(again.tension_limits) == [10, 2000]
     assert {note.kind for note in notes} <= {"assumed", "questioned", "no place for"}
     for call, said in (
-        (lambda: cdpr.exchange.export(robot, [0, 0, 1.3], "urdf"), 'to is "urdf": expected mjcf'),
+        (lambda: cdpr.exchange.export(robot, [0, 0, 1.3], "urdf"), 'to is "urdf": expected one of mjcf, caspr'),
         (lambda: cdpr.exchange.read(tmp_path, cable="steel-400mm", tension_limits=[1, 2]), "steel-400mm"),
         (lambda: cdpr.exchange.read(tmp_path, tension_limits=[1, 2, 3]), "tension_limits has the shape"),
     ):

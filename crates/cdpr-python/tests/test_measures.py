@@ -224,6 +224,7 @@ def all_results():
     sample = SobolDesign(ISHIGAMI, 128, seed=3)
     rows = sample.rows()
     outputs, slopes = ishigami(rows), gradients(rows)
+    drawn = LatinHypercubeDesign(ISHIGAMI, 128, seed=3).rows()
     morris, shapley = MorrisDesign(ISHIGAMI, 8, seed=1), ShapleyDesign(ISHIGAMI, 64, seed=1)
     return [
         saltelli.indices(ishigami(saltelli.rows())),
@@ -231,7 +232,7 @@ def all_results():
         sample.regression(outputs),
         sample.expansion(outputs),
         sample.gradient_expansion(outputs, slopes),
-        sensitivity.wasserstein_bures(rows, numpy.stack([outputs, rows[:, 1]], axis=1)),
+        sensitivity.wasserstein_bures(drawn, numpy.stack([ishigami(drawn), drawn[:, 1]], axis=1)),
         sample.brackets(outputs, slopes),
         sample.derivative_measures(outputs, slopes),
         sample.active_subspace(outputs, slopes),

@@ -159,7 +159,9 @@ def test_the_derivatives_are_those_of_the_command_line(caroca, caroca_file):
     assert numpy.isnan(found.frequency).all(), "CAROCA has no inertia"
     unloaded = caroca.derivatives(TURNED)
     same(unloaded.lengths, found.lengths)
-    assert numpy.isnan(unloaded.magnitude).all() and not unloaded.displacement.any()
+    assert numpy.isnan(unloaded.magnitude).all()
+    numpy.testing.assert_allclose(unloaded.displacement[:, :count], 0, atol=1e-9)
+    assert unloaded.displacement[2, count] < 0, "each kilogram lowers the platform"
 
 
 def test_left_and_right_derivatives_of_cables_on_their_least_tension_differ(caroca):
@@ -217,7 +219,9 @@ def test_a_workspace_is_that_of_the_command_line(caroca, caroca_file, tmp_path):
     assert found.recomputed_reasons == column("recomputed_reason")
     for name in ("least_tension_n", "greatest_tension_n", "least_stiffness_n_per_m", "dominant_share",
                  "recomputed_least_tension_n", "recomputed_greatest_tension_n", "magnitude_mm", "dx_mm"):
-        same(found.to_dataframe()[name], [numpy.nan if value is None else value for value in column(name)])
+        printed_column = [numpy.nan if value is None else value for value in column(name)]
+        # From metres to millimetres is one rounding more.
+        numpy.testing.assert_allclose(found.to_dataframe()[name], printed_column, rtol=1e-15)
     bare = caroca.workspace(x=(-3, 3, 7), y=0, z=1.75, payload=0)
     assert numpy.isnan(bare.magnitude).all() and not numpy.isnan(bare.least_stiffness).any()
     assert numpy.isnan(bare.lowest_frequency).all()

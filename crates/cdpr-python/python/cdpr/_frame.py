@@ -140,6 +140,7 @@ def frame_of(answer: Any, names: list[str]) -> Any:
         fields = _columns(kind, name.removesuffix("_right"), doc, shape[:-1] if is_of_inputs else shape)
         for k, end in enumerate(ends):
             for index, head, factor in fields:
-                column = array[(slice(None), *index, k)] if is_of_inputs else array[(slice(None), *index)]
+                at: Any = (slice(None), *index, *([k] if is_of_inputs else []))
+                column = array[at]
                 columns[f"{prefix}{side}{head}{end}"] = column if factor == 1 else factor * column
     return pandas.DataFrame(columns)
