@@ -49,12 +49,15 @@ pub(crate) fn caroca() -> (Page, impl FnMut(f64) -> String) {
 
 /// Waits until field, address and numbers are of this height.
 fn shows(page: &mut Page, z: f64, deflection: &str) {
-    page.wait_for(&format!("({SHOWN}).numbers.startsWith('deflection{deflection}')"));
+    // The address leaves out what is as it was first.
+    let position = if z == 1.75 { Value::Null } else { json!([0, 0, z]) };
+    page.wait_for(&format!(
+        "(of => of.numbers.startsWith('deflection{deflection}') \
+         && JSON.stringify(of.position ?? null) === '{position}')({SHOWN})"
+    ));
     let shown = page.evaluate(SHOWN);
     assert_eq!(shown["text"], json!(z.to_string()), "{shown}");
     assert_eq!(shown["draft"], json!(false), "{shown}");
-    // The address leaves out what is as it was first.
-    let position = if z == 1.75 { Value::Null } else { json!([0, 0, z]) };
     assert_eq!(shown["position"], position, "{shown}");
 }
 
