@@ -1,10 +1,11 @@
-//! Every dependency is compiled once: the program, all tests, the optional features and the wheel ask the same
-//! features of it (those that `Cargo.toml` of `cdpr-tests`, `cdpr-python` and `xtask` add).
+//! Every dependency is compiled once: the program, all tests, the optional features and the wheel ask the
+//! same features of it (those that `Cargo.toml` of `cdpr-tests`, `cdpr-python` and `xtask` add).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
-/// The features [each a set] with which a selection of packages and kinds of dependencies compiles each package.
+/// The features [each a set] with which a selection of packages and kinds of dependencies compiles each
+/// package.
 fn features(selection: &[&str]) -> BTreeMap<String, BTreeSet<String>> {
     let output = Command::new(std::env::var("CARGO").unwrap())
         .args(["tree", "--locked", "--prefix", "none", "--no-dedupe", "--format", "{p}|{f}"])

@@ -1,9 +1,9 @@
 //! `cargo xtask bench`: criterion's benchmarks and their instruction counts, next to a baseline.
 //!
 //! Times depend on the load of the machine: criterion compares them with those of its last run. Instruction
-//! counts do not: in criterion's test mode each benchmark calls its function `in_one_call` once, and callgrind
-//! counts the instructions of that call. Valgrind does not support AVX-512, so that lanes are counted on
-//! AVX2.
+//! counts do not: in criterion's test mode each benchmark calls its function `in_one_call` once, and
+//! callgrind counts the instructions of that call. Valgrind does not support AVX-512, so that lanes are
+//! counted on AVX2.
 
 use crate::cargo::{
     Outcome, cargo_command, done, emptied, files, machine, printed, read, read_json, root, target, text,

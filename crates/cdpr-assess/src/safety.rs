@@ -138,8 +138,8 @@ impl BrokenRest {
 
 /// The robot at a pose under a load with each cable broken alone, and with each pair of cables if asked for.
 ///
-/// A motion needs the inertia of the platform. One whose energy is off, or that strains a cable by more than the
-/// models hold for, is [`DynamicsError::Implausible`].
+/// A motion needs the inertia of the platform. One whose energy is off, or that strains a cable by more
+/// than the models are valid for, is [`DynamicsError::Implausible`].
 ///
 /// # Errors
 /// Those of [`inverse`] at the pose, and [`StaticsError::Unstable`] where the platform does not stay. A break

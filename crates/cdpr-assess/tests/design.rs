@@ -214,7 +214,10 @@ fn with_inertia(robot: &Robot) -> cdpr_robot::Platform {
 
 #[test]
 fn each_start_is_at_a_robot_that_is_held_where_one_can_be_drawn() {
-    let cable = |exit: [f64; 2], anchor: [f64; 2]| json!({"exit_point": [exit[0], 0, exit[1]], "anchor_point": [anchor[0], 0, anchor[1]]});
+    let cable = |exit: [f64; 2], anchor: [f64; 2]| {
+        let point = |of: [f64; 2]| [of[0], 0.0, of[1]];
+        json!({"exit_point": point(exit), "anchor_point": point(anchor)})
+    };
     let robot = json!({
         "format": "cdpr-robot/1", "name": "Redundant", "gravity": 9.81, "plane": "xz",
         "platform": {"mass": 12.0, "center_of_mass": [0.03, 0, 0.02]},

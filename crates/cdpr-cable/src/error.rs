@@ -17,8 +17,8 @@ pub enum CableError {
     },
     /// The anchor point lies within the wheel of a pulley, or where the cable would lean back over it.
     #[error(
-        "its anchor point is {} m from the swivel axis of its pulley: expected a distance at which the cable can \
-         leave the pulley away from the axis, more than the diameter of the wheel beyond it",
+        "its anchor point is {} m from the swivel axis of its pulley: expected a distance at which the cable \
+         can leave the pulley away from the axis, more than the diameter of the wheel beyond it",
         short(*distance)
     )]
     AtPulley {
@@ -40,8 +40,8 @@ pub enum CableError {
     },
     /// The cable is strained beyond [`crate::MAX_STRAIN`].
     #[error(
-        "a tension of {} N strains the cable by {:.1} %, beyond the {:.0} % up to which the models are valid: \
-         it is too short or too soft for this",
+        "a tension of {} N strains the cable by {:.1} %, beyond the {:.0} % up to which the models are \
+         valid: it is too short or too soft for this",
         short(*tension), 100.0 * strain, 100.0 * MAX_STRAIN
     )]
     Overstrained {

@@ -183,16 +183,15 @@ impl LengthOffsets {
         greatest.filter(|_| explains(self.gain, self.offsets.len(), chi_square, degrees))
     }
 
-    /// The one constant error of all lengths [m], where it explains as much and nearly all that those of single
-    /// cables do.
+    /// The one constant error of all lengths [m], where it explains as much and nearly all that those of
+    /// single cables do.
     pub(crate) fn explain_together(&self, chi_square: f64, degrees: usize) -> Option<f64> {
         let (gain, offset) = self.common;
         (gain > SAME * self.gain && explains(gain, 1, chi_square, degrees)).then_some(offset)
     }
 }
 
-/// Whether `gain` by so many further unknowns is significant, and is most of what a chi-square exceeds its mean
-/// by.
+/// Whether the gain by further unknowns is significant, and is most of what a chi-square exceeds its mean by.
 fn explains(gain: f64, unknowns: usize, chi_square: f64, degrees: usize) -> bool {
     let (unknowns, degrees) = (unknowns as f64, degrees as f64);
     let chance = statrs::function::gamma::gamma_ur(0.5 * unknowns, 0.5 * gain.max(f64::MIN_POSITIVE));

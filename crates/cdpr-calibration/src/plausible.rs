@@ -63,10 +63,12 @@ impl MissingLength {
         let cause = "such as the lead between winch and exit point, or where the winches count from";
         let expected = match missing > 0.0 {
             true => format!(
-                "lengths that are {size} m longer, all of them: {fit}. Is a constant missing in them, {cause}?"
+                "lengths that are {size} m longer, all of them: {fit}. Is a constant missing in them, \
+                 {cause}?"
             ),
             false => format!(
-                "lengths that are {size} m shorter, all of them: {fit}. Is a constant missing in the robot file, \
+                "lengths that are {size} m shorter, all of them: {fit}. Is a constant missing in the robot \
+                 file, \
                  {cause}?"
             ),
         };

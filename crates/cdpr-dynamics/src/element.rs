@@ -54,7 +54,8 @@ impl<const D: usize> Beginning<D> {
         Self { directions: Vec::new(), matrices: Matrices::zeros(0) }
     }
 
-    /// A point that yields with this compliance [m/N]. Along directions with less than `rounding` it is fixed.
+    /// A point that yields with this compliance [m/N]. Along directions with less than `rounding` it is
+    /// fixed.
     pub(crate) fn yielding(compliance: [[f64; D]; D], rounding: f64) -> Self {
         let eigen = DMatrix::from_fn(D, D, |i, j| compliance[i][j]).symmetric_eigen();
         let soft: Vec<usize> = (0..D).filter(|k| eigen.eigenvalues[*k] > rounding).collect();

@@ -3,13 +3,13 @@
 mod band;
 mod cable;
 mod change;
+mod collocation;
 mod event;
 mod lead;
 mod links;
 mod matrices;
 mod mesh;
 mod midpoint;
-mod radau;
 mod run;
 mod series;
 mod setting;
@@ -17,8 +17,8 @@ mod solver;
 mod system;
 mod winch;
 
+pub use collocation::Work;
 pub use event::{Change, CutAt, Event, events_from_json, events_schema};
-pub use radau::Work;
 pub use run::{Command, Control};
 pub use setting::{Discretization, Settings};
 pub use winch::{Profile, WinchLengths};

@@ -55,8 +55,8 @@ impl Target {
 /// Firmware has the points of straight lines [mm]; [`crate::correction_table`] has its lengths.
 ///
 /// # Errors
-/// [`ExchangeError::NoPlace`] for pulleys, leads and laws in formats that have none, and for a plane or a point
-/// mass in formats of bodies; [`ExchangeError::Pose`] for a pose that is not held.
+/// [`ExchangeError::NoPlace`] for pulleys, leads and laws in formats that have none, and for a plane or a
+/// point mass in formats of bodies; [`ExchangeError::Pose`] for a pose that is not held.
 pub fn export(robot: &Robot, pose: &Pose, target: Target) -> Result<Exported, ExchangeError> {
     write(robot, pose, target).map_err(|error| match error {
         ExchangeError::NoPlace { field, value, expected, .. } => {
@@ -66,8 +66,8 @@ pub fn export(robot: &Robot, pose: &Pose, target: Target) -> Result<Exported, Ex
     })
 }
 
-/// Names of the formats that take a robot at a pose, the table of [`crate::correction_table`] with them. Those
-/// that would leave out its leads do not.
+/// Names of the formats that take a robot at a pose, the table of [`crate::correction_table`] with them.
+/// Those that would leave out its leads do not.
 pub fn takers(robot: &Robot, pose: &Pose) -> Vec<&'static str> {
     let has_lead = robot.cables.iter().any(|cable| cable.lead > 0.0);
     let takes = |target: Target| (target != Target::Caspr || !has_lead) && write(robot, pose, target).is_ok();

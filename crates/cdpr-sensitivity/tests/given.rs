@@ -76,7 +76,8 @@ fn an_index_that_rows_leave_open_is_left_out_with_a_note() {
     let data = table(normal(2), 60, 5, |x| Some((2.0 * x[0] + x[1]).exp()));
     let found = Analyser::new(1).analyse(&data).unwrap();
     assert!(found.inputs.iter().all(|input| input.first.is_none()), "{found:?}");
-    let note = "first-order indices: 60 rows, of which 2 dominate the variance, leave these open from 0 to 1: \
+    let note = "first-order indices: 60 rows, of which 2 dominate the variance, leave these open from 0 \
+                to 1: \
                 x1, x2";
     assert!(found.notes.iter().any(|found| found == note), "{:?}", found.notes);
 }

@@ -67,11 +67,11 @@ fn direct_model(criterion: &mut Criterion) {
         });
     }
     let lawful = Robot::from_library("caroca-law").unwrap();
-    let wound = inverse(&lawful, &pose, &Load::none()).unwrap();
-    let (load, near) = (Load::payload(50.0), DirectStart::Near(&wound.equilibrium));
-    assert!(direct(&lawful, &wound.lengths, &load, near).unwrap().report.residual.force < 1e-8);
+    let unloaded = inverse(&lawful, &pose, &Load::none()).unwrap();
+    let (load, near) = (Load::payload(50.0), DirectStart::Near(&unloaded.equilibrium));
+    assert!(direct(&lawful, &unloaded.lengths, &load, near).unwrap().report.residual.force < 1e-8);
     group.bench_function("law", |b| {
-        b.iter(|| in_one_call(|| direct(black_box(&lawful), black_box(&wound.lengths), &load, near)));
+        b.iter(|| in_one_call(|| direct(black_box(&lawful), black_box(&unloaded.lengths), &load, near)));
     });
     for n in [6, 8, 12, 16] {
         let robot = ring(n);
@@ -88,24 +88,24 @@ fn direct_model(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// A control loop: every cable wound by up to a millimetre between two solves.
+/// A control loop: the length of every cable changes by up to a millimetre between two solves.
 fn tracking(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("direct");
     let robot = caroca();
     let wanted = inverse(&robot, &Pose::at(0.4, -0.3, 1.75), &Load::none()).unwrap();
     let load = Load::payload(50.0);
-    let wound: Vec<f64> =
+    let changed: Vec<f64> =
         wanted.lengths.iter().enumerate().map(|(i, l)| l + 1e-3 * (i as f64).sin()).collect();
     let mut tracker = Tracker::new(&robot, &wanted.lengths, &load, &wanted.equilibrium).unwrap();
     let expected =
-        direct(&robot, &wound, &load, DirectStart::Near(&wanted.equilibrium)).unwrap().equilibrium.pose;
-    let found = tracker.update(&wound, &load).unwrap().pose;
+        direct(&robot, &changed, &load, DirectStart::Near(&wanted.equilibrium)).unwrap().equilibrium.pose;
+    let found = tracker.update(&changed, &load).unwrap().pose;
     assert!((found.position - expected.position).norm() < 1e-12);
     let mut there = false;
     group.bench_function("tracked", |b| {
         b.iter(|| {
             there = !there;
-            let lengths = black_box(if there { &wanted.lengths } else { &wound });
+            let lengths = black_box(if there { &wanted.lengths } else { &changed });
             in_one_call(|| tracker.update(lengths, &load).is_ok())
         });
     });

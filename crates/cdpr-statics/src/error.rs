@@ -166,7 +166,8 @@ pub enum StaticsError {
     /// What was found strains a cable beyond [`cdpr_cable::MAX_STRAIN`].
     #[error(
         "cable {} is strained by {:.1} %, beyond the {:.0} % up to which the models are valid: its \
-         unstrained length is {length} m, the distance of its points {} m; it is too short or too soft for this",
+         unstrained length is {length} m, the distance of its points {} m; it is too short or too soft \
+         for this",
         index + 1, 100.0 * strain, 100.0 * cdpr_cable::MAX_STRAIN,
         visible(*distance, 4), length = short(*length)
     )]

@@ -318,7 +318,7 @@ fn one_constant_of_all_lengths_is_named_as_one() {
     assert_eq!(code, Some(3), "{error}");
     let summary: Value = serde_json::from_str(&found).unwrap();
     let constant = &summary["length_constant"];
-    assert!((constant["metres"].as_f64().unwrap() + 0.05).abs() < 5e-3, "{constant}");
+    assert!((constant["error_m"].as_f64().unwrap() + 0.05).abs() < 5e-3, "{constant}");
     assert!(constant["share"].as_f64().unwrap() > 0.9, "{constant}");
     assert!(summary["warnings"].to_string().contains("one constant error of all lengths, -4"), "{summary}");
 }

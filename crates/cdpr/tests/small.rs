@@ -119,6 +119,17 @@ fn cables_that_cross_are_something_wrong() {
     assert_eq!(output.status.code(), Some(3));
     let least = |name: &str| found[name].as_f64().unwrap_or(0.0);
     assert!(least("nearest_cables_mm").min(least("nearest_to_platform_mm")) < 0.0, "{found}");
+    let map = |robot| {
+        let region = ["workspace", robot, "--region=0:0.1:2,0:0.1:2,1.75", "--with", "distances"];
+        let output = cdpr_in(folder.path(), &region);
+        (output.status.code(), text(output.stdout).replace('\n', " "))
+    };
+    let (code, printed) = map("thick.json");
+    let said = "At 4 of 4 positions held cables touch or cross each other or the platform, first at (0, 0, 1.750) \
+                m: ";
+    assert!(code == Some(3) && printed.contains(said), "{code:?} {printed}");
+    let (code, printed) = map("caroca");
+    assert!(code == Some(0) && !printed.contains(" cross"), "{code:?} {printed}");
 }
 
 #[test]

@@ -203,7 +203,8 @@ impl DesignProblem {
         if self.free.len() != missing || distinct.len() != missing || !are_free {
             let names: Vec<_> = self.free.iter().map(ToString::to_string).collect();
             let expected = format!(
-                "{missing} different ones of x, y, z, roll, pitch, yaw that `plane` and `point` leave free, for {} \
+                "{missing} different ones of x, y, z, roll, pitch, yaw that `plane` and `point` leave free, \
+                 for {} \
                  cables and {} free motions",
                 robot.cables.len(),
                 robot.freedoms().count()

@@ -100,7 +100,8 @@ fn monotone(samples: &[Sample], sign: f64) -> Result<(), RecordError> {
         for (field, value, previous) in fields {
             if sign * (value - previous) <= 0.0 {
                 let expected = format!(
-                    "{way} than {previous} of line {} while {}; smooth a noisy record, leave rows of a dwell out",
+                    "{way} than {previous} of line {} while {}; smooth a noisy record, leave rows of a dwell \
+                     out",
                     before.line,
                     now.phase.name()
                 );

@@ -78,12 +78,12 @@ impl Problem<'_> {
     }
 
     /// Refuses positions of rows that are not those of the lengths, but are after a rigid motion: they are in
-    /// the frame of a tracker. So it does where one coordinate has the other sign, and where a constant in all
-    /// lengths explains more than any motion.
+    /// the frame of a tracker. So it does where one coordinate has the other sign, and where a constant in
+    /// all lengths explains more than any motion.
     ///
     /// # Errors
-    /// [`CalibrationError::Column`] that says which coordinate has the other sign, how far the frame is and by
-    /// how much it is turned, or the constant.
+    /// [`CalibrationError::Column`] that says which coordinate has the other sign, how far the frame is and
+    /// by how much it is turned, or the constant.
     pub(super) fn check_frame(
         &self,
         rows: &[crate::Row],

@@ -34,8 +34,8 @@ impl Problem<'_> {
         Some(LengthOffsets { gain: decomposed.distance().powi(2), offsets, common })
     }
 
-    /// What one offset of all lengths would take from chi-square, and that offset [m]; `first` is the index of
-    /// the first of those of single cables, the last unknowns.
+    /// What one offset of all lengths would take from chi-square, and that offset [m]; `first` is the index
+    /// of the first of those of single cables, the last unknowns.
     fn common_offset(&self, at: &Linearized, state: &State, first: usize) -> (f64, f64) {
         let mut unknowns = self.model.unknowns.clone();
         unknowns.all.truncate(first + 1);

@@ -11,8 +11,8 @@ pub enum Measurement {
     Pose {
         /// Noise of each coordinate [m].
         position: f64,
-        /// Noise of each component of the rotation [rad]; `None` where it is not measured, as of one reflector,
-        /// and of a point mass, which has no rotation.
+        /// Noise of each component of the rotation [rad]; `None` where it is not measured, as of one
+        /// reflector, and of a point mass, which has no rotation.
         rotation: Option<f64>,
     },
     /// The tensions at the platform there; noise [N].

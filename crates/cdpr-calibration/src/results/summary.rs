@@ -165,6 +165,7 @@ pub struct CalibrationSummary {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LengthConstant {
     /// Measured less right lengths [m].
+    #[serde(rename = "error_m")]
     pub metres: f64,
     /// Share of chi-square that it explains.
     pub share: f64,

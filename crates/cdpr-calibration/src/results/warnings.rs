@@ -107,8 +107,8 @@ impl Fit {
         let text = |metres: f64| significant(1e3 * metres, 2);
         if let Some(LengthConstant { metres, share }) = summary.length_constant {
             return Some(format!(
-                "one constant error of all lengths, {} mm, explains {:.0} % of chi-square: correct the lengths, or \
-                 fit length_offset, too",
+                "one constant error of all lengths, {} mm, explains {:.0} % of chi-square: correct the \
+                 lengths, or fit length_offset, too",
                 text(metres),
                 100.0 * share
             ));

@@ -104,7 +104,8 @@ impl CableInMotion<'_> {
         matches!(self.start, Start::Led(_)) && self.mesh.is_some()
     }
 
-    /// A chain of straight elements for it, whose first one is slack wherever a slack cable comes to a pulley.
+    /// A chain of straight elements for it, whose first one is slack wherever a slack cable comes to a
+    /// pulley.
     pub(super) fn chain(&self, elements: usize) -> Mesh {
         let share = if let Start::Led(lead) = &self.start { lead.around() / self.length } else { 0.0 };
         Mesh::beginning(&Arc::new(Rule::new(1)), elements, share)

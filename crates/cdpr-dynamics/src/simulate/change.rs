@@ -1,8 +1,8 @@
 //! What events change, and the rest of the discrete cables from which a motion begins.
 
 use super::cable::Start;
+use super::collocation::{Equations, Linearization};
 use super::event::{Change, CutAt, Event};
-use super::radau::{Equations, Linearization};
 use super::setting::Discretization;
 use super::system::{Snapshot, System};
 use cdpr_robot::Wrench;

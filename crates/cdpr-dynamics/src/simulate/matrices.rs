@@ -5,7 +5,7 @@
 
 use super::band::Factored;
 use super::cable::CableMatrices;
-use super::radau::Linearization;
+use super::collocation::Linearization;
 use cdpr_robot::Vector6;
 use nalgebra::{ComplexField, Const, LU, Matrix6};
 

@@ -9,8 +9,8 @@
 //! With θ = 1/2 it is the midpoint rule.
 
 use super::cable::CableInMotion;
+use super::collocation::{Stalled, Work};
 use super::links::Links;
-use super::radau::{Stalled, Work};
 use super::system::{Snapshot, System};
 use cdpr_robot::Vector6;
 use nalgebra::Matrix6;

@@ -1,7 +1,7 @@
 //! A motion from its events to its samples.
 
+use super::collocation::Work;
 use super::event::{Change, Event};
-use super::radau::Work;
 use super::series::{Difference, Energy, Excursion, Sample, Series};
 use super::setting::{Discretization, Settings};
 use super::solver::Solver;

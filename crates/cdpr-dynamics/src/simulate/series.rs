@@ -1,6 +1,6 @@
 //! What a motion is: its samples, and what is known of all its steps.
 
-use super::radau::Work;
+use super::collocation::Work;
 use super::setting::Discretization;
 use crate::error::DynamicsError;
 use cdpr_robot::{Doubt, Pose, Robot, Vector6, short, significant};
@@ -58,7 +58,7 @@ pub struct Excursion {
 
 /// A motion.
 ///
-/// [`Self::overstrained`] says whether it is one that the models hold for.
+/// [`Self::overstrained`] says whether it is one that the models are valid for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// Its samples, ascending.
@@ -84,7 +84,7 @@ pub struct Series {
 }
 
 impl Series {
-    /// The cable that is strained most, if by more than the models hold for.
+    /// The cable that is strained most, if by more than the models are valid for.
     pub fn overstrained(&self, robot: &Robot) -> Option<Doubt> {
         let strains =
             self.peaks.iter().enumerate().map(|(i, (tension, _))| (i, robot.cable(i).strain(*tension)));
@@ -103,11 +103,11 @@ impl Series {
     /// Whether it is a motion that says something of the robot.
     ///
     /// # Errors
-    /// [`DynamicsError::Implausible`] where its energy is off, as only that of a wrong computation is, or where
-    /// a cable is strained by more than the models hold for.
+    /// [`DynamicsError::Implausible`] where its energy is off, as only that of a wrong computation is, or
+    /// where a cable is strained by more than the models are valid for.
     pub fn check(&self, robot: &Robot) -> Result<(), DynamicsError> {
-        /// Share of the greatest kinetic energy by which the energy may be off: that of velocities which err by
-        /// half of it.
+        /// Share of the greatest kinetic energy by which the energy may be off: that of velocities which
+        /// err by half of it.
         const OFF: f64 = 0.01;
         /// Rounding of energies [J].
         const ROUNDING: f64 = 1e-6;

@@ -1,7 +1,7 @@
 //! The solution of the equations of motion by the method that serves.
 
+use super::collocation::{Collocation, Method, Stalled, Work};
 use super::midpoint::{Midpoint, Spent};
-use super::radau::{Method, Radau, Stalled, Work};
 use super::system::{Snapshot, System};
 
 /// First step after a change [s].
@@ -10,7 +10,7 @@ const FIRST_STEP: f64 = 1e-5;
 /// A solution in progress.
 pub(super) enum Solver<'a> {
     /// For smooth motions.
-    Implicit(Box<Radau<System<'a>>>),
+    Implicit(Box<Collocation<System<'a>>>),
     /// For slack cables.
     Midpoint(Box<Midpoint>),
 }
@@ -21,21 +21,21 @@ impl<'a> Solver<'a> {
         let midpoint = if is_slack { Midpoint::new(system, time, &state) } else { None };
         let method = if system.is_damped() { &Method::RADAU } else { &Method::GAUSS };
         midpoint.map_or_else(
-            || Self::Implicit(Box::new(Radau::new(method, system, time, state, FIRST_STEP))),
+            || Self::Implicit(Box::new(Collocation::new(method, system, time, state, FIRST_STEP))),
             |midpoint| Self::Midpoint(Box::new(midpoint)),
         )
     }
 
     pub(super) fn state(&self) -> &[f64] {
         match self {
-            Self::Implicit(radau) => &radau.state,
+            Self::Implicit(steps) => &steps.state,
             Self::Midpoint(midpoint) => &midpoint.state,
         }
     }
 
     pub(super) fn time(&self) -> f64 {
         match self {
-            Self::Implicit(radau) => radau.time,
+            Self::Implicit(steps) => steps.time,
             Self::Midpoint(midpoint) => midpoint.time,
         }
     }
@@ -43,14 +43,14 @@ impl<'a> Solver<'a> {
     /// The time without the rounding of steps.
     pub(super) fn set_time(&mut self, time: f64) {
         match self {
-            Self::Implicit(radau) => radau.time = time,
+            Self::Implicit(steps) => steps.time = time,
             Self::Midpoint(midpoint) => midpoint.time = time,
         }
     }
 
     pub(super) fn work(&self) -> Work {
         match self {
-            Self::Implicit(radau) => radau.work,
+            Self::Implicit(steps) => steps.work,
             Self::Midpoint(midpoint) => midpoint.work,
         }
     }
@@ -63,34 +63,34 @@ impl<'a> Solver<'a> {
     /// The system now, or within the last step.
     pub(super) fn last_snapshot(&self) -> &Snapshot {
         match self {
-            Self::Implicit(radau) => &radau.memories[3],
+            Self::Implicit(steps) => &steps.memories[3],
             Self::Midpoint(midpoint) => &midpoint.at,
         }
     }
 
     /// One step, not beyond `until` [s].
     pub(super) fn advance(&mut self, system: &mut System<'a>, until: f64) -> Result<Spent, Stalled> {
-        let radau = match self {
-            Self::Implicit(radau) => radau,
+        let steps = match self {
+            Self::Implicit(steps) => steps,
             Self::Midpoint(midpoint) => return midpoint.advance(system, until),
         };
-        let step = radau.advance(system, until)?;
+        let step = steps.advance(system, until)?;
         let mut spent = Spent::default();
         // Snapshots of the stages are those before the last change of Newton's method.
-        let times = radau.method.stages.map(|share| radau.time + (share - 1.0) * step.length);
+        let times = steps.method.stages.map(|share| steps.time + (share - 1.0) * step.length);
         let looks = times.iter().any(|time| system.has_power(*time));
-        for ((state, at), time) in step.stages.iter().zip(&mut radau.memories).zip(times) {
+        for ((state, at), time) in step.stages.iter().zip(&mut steps.memories).zip(times) {
             if looks {
                 system.look(time, state, at);
             }
         }
-        for ((weight, state), at) in radau.method.weights.iter().zip(&step.stages).zip(&radau.memories) {
+        for ((weight, state), at) in steps.method.weights.iter().zip(&step.stages).zip(&steps.memories) {
             let [given, lost] = system.powers(at, state);
             spent.given += weight * step.length * given;
             spent.lost += weight * step.length * lost;
             spent.kinetic = spent.kinetic.max(system.kinetic(at, state));
         }
-        system.turn(&mut radau.state);
+        system.turn(&mut steps.state);
         Ok(spent)
     }
 }

@@ -10,8 +10,8 @@
 //! [`Snapshot`] has all of it at an instant, and its memory serves for the next one.
 
 use super::cable::{CableInMotion, End, Instant};
+use super::collocation::Equations;
 use super::matrices::Matrices;
-use super::radau::Equations;
 use cdpr_robot::{Matrix3, Rotation3, Vector3, Vector6, Wrench, orthonormalized};
 use nalgebra::{Matrix6, SMatrix};
 

@@ -104,8 +104,8 @@ pub fn in_ground(robot: &Robot, quantity: &str, pose: &Pose) -> Option<Doubt> {
 /// Steps of time and way beyond this many times their medians are gaps.
 const GAP: f64 = 5.0;
 
-/// A time [s] of a path that is not later than the one before, or that is much later, with a platform that has
-/// moved far meanwhile. `lines` are those of a file, and `name` is that of the column.
+/// A time [s] of a path that is not later than the one before, or that is much later, with a platform that
+/// has moved far meanwhile. `lines` are those of a file, and `name` is that of the column.
 pub fn times(name: &str, lines: &[usize], times: &[f64], poses: &[Pose]) -> Option<Doubt> {
     let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let ways: Vec<f64> = poses.windows(2).map(|pair| (pair[1].position - pair[0].position).norm()).collect();

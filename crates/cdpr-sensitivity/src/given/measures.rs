@@ -191,7 +191,8 @@ impl<'a> Work<'a> {
             let mean = outputs.iter().sum::<f64>() / outputs.len() as f64;
             let squares: Vec<f64> = outputs.iter().map(|y| (y - mean).powi(2)).collect();
             notes.0.push(format!(
-                "first-order indices: {} rows, of which {:.0} dominate the variance, leave these open from 0 to 1: \
+                "first-order indices: {} rows, of which {:.0} dominate the variance, leave these open from 0 to \
+                 1: \
                  {}",
                 outputs.len(),
                 effective(&squares),

@@ -323,7 +323,7 @@ impl Verdict {
         }
     }
 
-    /// Writes the sentences on the inputs that vary, of so many in all.
+    /// Writes the sentences on the inputs that vary, of `all`.
     pub(crate) fn concluded(mut self, inputs: &[&str], all: usize) -> Self {
         let few = self.conditions.iter().any(|condition| condition.concern == Concern::FewRows);
         self.sentences = if few {

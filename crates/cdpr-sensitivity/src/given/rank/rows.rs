@@ -17,7 +17,6 @@
 //! - (Rw3): rows that fill the plane of two inputs more evenly than chance have c below zero, those of
 //!   inputs that depend on each other above. Coordinates of sequences that are rounded are found by this
 //!   alone.
-//!
 //! - **Shared values**: in designs of Saltelli a row has all inputs but one of another row, and shuffled it
 //!   still has. Of rows next to each other in input i that have the same value of it, let K of T be the
 //!   values of others that they share, too, and F those that they share by chance:
@@ -33,7 +32,8 @@
 //! is below 0.6 of the least one possible. Latin hypercubes that are optimized have c, but no z: they pass.
 //!
 //! An input is a *coordinate* if, moreover, the sum of its c that are below zero is 2 deviations below that
-//! of random rows. So inputs on a circle are none, whose points leave most of the square empty.
+//! of random rows. The points of two inputs on a circle leave most of the square empty: such inputs are not
+//! coordinates.
 //!
 //! Columns of levels, with at most 16 different values or less than one in eight rows, have designs of
 //! their own and are left out.

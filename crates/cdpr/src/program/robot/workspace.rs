@@ -354,7 +354,8 @@ fn crossing(summary: &WorkspaceSummary, held: usize) -> Option<String> {
     let what = pair.into_iter().chain(platform).collect::<Vec<_>>().join(", ");
     let [x, y, z] = [first.x_m, first.y_m, first.z_m].map(|at| significant(at, 4));
     Some(format!(
-        "At {count} of {held} positions held cables touch or cross each other or the platform, first at          ({x}, {y}, {z}) m: {what}."
+        "At {count} of {held} positions held cables touch or cross each other or the platform, first at \
+         ({x}, {y}, {z}) m: {what}."
     ))
 }
 

@@ -53,7 +53,8 @@ pub(super) fn print(summary: &CalibrationSummary, loss: RobustLoss) {
         sentences.insert(
             0,
             format!(
-                "The measurements do not fit {robot}: lengths that are all {size} mm too {to} explain {:.0} % of the \
+                "The measurements do not fit {robot}: lengths that are all {size} mm too {to} explain {:.0} % of \
+                 the \
                  misfit. Is a constant missing, such as the lead of all cables?",
                 100.0 * share
             ),
@@ -62,7 +63,8 @@ pub(super) fn print(summary: &CalibrationSummary, loss: RobustLoss) {
         sentences.insert(
             0,
             format!(
-                "The measurements do not fit {robot}: they are {} standard deviations off on average. Are they \
+                "The measurements do not fit {robot}: they are {} standard deviations off on average. Are \
+                 they \
                  of this robot, in this order of the cables, in these units?",
                 significant(misfit.sqrt(), 3)
             ),

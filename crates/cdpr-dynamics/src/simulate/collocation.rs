@@ -50,7 +50,7 @@ const GREATEST_FACTOR: f64 = 8.0;
 const SHORTEST: f64 = 1e-13;
 
 /// A solution in progress.
-pub(super) struct Radau<S: Equations> {
+pub(super) struct Collocation<S: Equations> {
     pub(super) time: f64,
     pub(super) state: Vec<f64>,
     /// Step that the errors allow [s].
@@ -112,7 +112,7 @@ pub(super) struct Step {
 /// No step is short enough.
 pub(super) struct Stalled;
 
-impl<S: Equations> Radau<S> {
+impl<S: Equations> Collocation<S> {
     pub(super) fn new(method: &'static Method, equations: &S, time: f64, state: Vec<f64>, step: f64) -> Self {
         let (mut memories, mut slopes): ([S::Memory; 4], _) = (Default::default(), vec![0.0; state.len()]);
         equations.slopes(time, &state, &mut memories[3], &mut slopes);
