@@ -120,8 +120,10 @@ fn cables_that_cross_are_something_wrong() {
     let least = |name: &str| found[name].as_f64().unwrap_or(0.0);
     assert!(least("nearest_cables_mm").min(least("nearest_to_platform_mm")) < 0.0, "{found}");
     let map = |robot| {
-        let region = ["workspace", robot, "--region=0:0.1:2,0:0.1:2,1.75", "--with", "distances"];
-        let output = cdpr_in(folder.path(), &region);
+        let region = ["--region=0:0.1:2,0:0.1:2,1.75", "--with", "distances", "--out"];
+        let folder_of_map = format!("{robot}-map");
+        let output =
+            cdpr_in(folder.path(), &[&["workspace", robot], &region[..], &[&folder_of_map]].concat());
         (output.status.code(), text(output.stdout).replace('\n', " "))
     };
     let (code, printed) = map("thick.json");
